@@ -1,0 +1,37 @@
+#pragma once
+// Files that are there whole or not at all.
+
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace coseg {
+
+/// Writes under a temporary name in the same folder; commit() gives the file its name, replacing an older
+/// one. Without commit (an exception on the way) the temporary is removed and an older file stays as it was.
+class AtomicFile {
+  public:
+    /// Throws Error(output) with path and cause if the temporary cannot be created.
+    explicit AtomicFile(const std::string& path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    [[nodiscard]] std::ostream& stream() { return stream_; }
+
+    /// Throws Error(output) with path and cause if anything could not be written (a full disk) or renamed.
+    void commit();
+
+  private:
+    [[noreturn]] void fail(const std::string& what);
+
+    std::string path_;
+    std::string temporary_;
+    std::ofstream stream_;
+    bool is_committed_ = false;
+};
+
+/// The whole content at once. Throws as AtomicFile does.
+void write_file(const std::string& path, std::string_view content);
+
+}  // namespace coseg

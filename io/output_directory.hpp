@@ -1,0 +1,60 @@
+#pragma once
+// The folder of results: there whole, or not at all.
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace coseg {
+
+/// A run's results are written into a folder beside the wanted one, DIR.partial-PID, which takes the name DIR
+/// in commit(); if DIR exists, into DIR/.partial-PID, whose content commit() moves up. Without commit the
+/// partial folder is removed, and nothing is left behind.
+///
+/// One rank creates and commits; the others write below the path that it hands them (staging()), all into a
+/// file system that every rank sees.
+///
+///     OutputDirectory output("results", force);          // rank 0
+///     write_labels(output.staging() + "/labels/cup.seg", labels);
+///     output.commit();                                   // rank 0, after all ranks have written
+class OutputDirectory {
+  public:
+    /// Creates the partial folder with labels/, patches/ and ply/ in it, and missing parents of DIR.
+    /// Throws Error(output) if DIR is a file or a link to nothing, is a folder with anything in it (unless
+    /// force; partial folders of killed runs do not count), or if the partial folder cannot be created.
+    OutputDirectory(const std::string& directory, bool force);
+    ~OutputDirectory();
+    OutputDirectory(const OutputDirectory&) = delete;
+    OutputDirectory& operator=(const OutputDirectory&) = delete;
+
+    /// Where to write until commit(): an absolute path without a slash at its end.
+    [[nodiscard]] const std::string& staging() const { return staging_; }
+
+    /// DIR as an absolute path.
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+    /// Gives the results their name. In a folder that is not empty (force): files of the same name are
+    /// replaced, and label and PLY files of an earlier run (labels/*.seg, patches/*.seg, ply/*.ply) that this
+    /// run did not write are removed; everything else stays. Throws Error(output); without force an existing
+    /// DIR is then untouched.
+    void commit();
+
+    /// Removes the partial folder unless it has been committed. May be called from another thread.
+    void abandon() noexcept;
+
+  private:
+    void refuse_what_is_there() const;
+    void create();
+    void move_into_existing() const;
+    void remove_partial() noexcept;
+
+    std::string path_;
+    std::string staging_;
+    bool force_;
+    std::mutex mutex_;
+    bool is_committed_ = false;
+    std::vector<std::filesystem::path> created_parents_;  ///< outermost first
+};
+
+}  // namespace coseg

@@ -1,0 +1,92 @@
+#pragma once
+// DIR/report.json: what was run, with what, how long it took and what came out. Format: docs/formats.md.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coseg {
+
+struct ReportStep {
+    std::string step;
+    double seconds = 0.0;  ///< sum over ranks
+};
+
+struct ReportStage {
+    std::string stage;
+    double seconds_min = 0.0;  ///< over ranks, a rank's own work
+    double seconds_mean = 0.0;
+    double seconds_max = 0.0;
+    double seconds_wall = 0.0;
+    std::vector<ReportStep> steps;  ///< empty where the stage does not tell
+};
+
+struct ReportMesh {
+    std::string name;
+    std::string path;
+    int faces = 0;          ///< in the file
+    int working_faces = 0;  ///< after repair and refinement
+    int patches = 0;        ///< over all over-segmentations
+    int rank = 0;
+    double seconds = 0.0;
+    std::vector<double> part_area;  ///< share of the mesh's area, per part
+    std::vector<std::string> warnings;
+};
+
+struct ReportRange {
+    std::string feature;
+    std::string kind;
+    double low = 0.0;
+    double high = 0.0;
+};
+
+struct ReportOptimisation {
+    std::string scope;
+    std::int64_t patches = 0;
+    double objective = 0.0;
+    double objective_at_zero = 0.0;
+    double lower_bound = 0.0;
+    double relative_gap = 0.0;
+    double kkt_residual = 0.0;
+    int iterations = 0;
+    std::int64_t nonzero_groups = 0;
+    std::string reason;
+};
+
+struct ReportStart {
+    double adjacency = 0.0;
+    int clusters = 0;
+    double score = 0.0;
+};
+
+struct ReportStrength {
+    std::string feature;
+    double overall = 0.0;             ///< share of the coefficients' sum
+    std::vector<double> within_part;  ///< the same inside each part
+};
+
+struct Report {
+    std::vector<std::pair<std::string, std::string>> options;
+    std::vector<std::pair<std::string, std::string>> versions;
+    int ranks = 0;
+    double seconds = 0.0;
+    double peak_memory_sum_mib = 0.0;  ///< sum over ranks of each rank's peak resident memory
+    double peak_memory_max_mib = 0.0;
+    std::vector<ReportStage> stages;
+    std::vector<ReportMesh> meshes;
+    std::vector<std::pair<std::string, std::string>> set_aside;  ///< path and reason
+    std::vector<ReportRange> ranges;
+    ReportOptimisation optimisation;
+    std::vector<double> eigenvalues;
+    std::vector<ReportStart> starts;
+    int chosen_start = 0;
+    std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
+    std::vector<ReportStrength> feature_strengths;
+    std::vector<std::int64_t> pairs_by_feature_count;  ///< pairs with 1, 2, ... nonzero features
+};
+
+/// Throws Error(output) if the file cannot be written.
+void write_report(const std::string& path, const Report& report);
+
+}  // namespace coseg

@@ -1,0 +1,56 @@
+#pragma once
+// Walks through text line by line and word by word, and knows the line for messages.
+
+#include <string>
+#include <string_view>
+
+namespace coseg {
+
+/// Lines end in LF, CR LF or CR; words are separated by blanks; a comment runs from its sign to the line's
+/// end. Works on memory that the caller keeps.
+class TextCursor {
+  public:
+    /// comment = 0: the text has no comments. A byte order mark at the start is passed over.
+    TextCursor(std::string_view text, std::string path, char comment);
+
+    /// Goes to the next line that has a word; false at the end of the text.
+    bool next_line();
+
+    /// The next word of the current line, empty at its end.
+    std::string_view word();
+
+    /// The next word on this or a later line, empty at the end of the text.
+    std::string_view word_on_any_line();
+
+    /// Makes a backslash at the end of a line join the next line to it.
+    void join_lines_at_backslash() { joins_lines_ = true; }
+
+    /// Where the next line begins, in bytes from the start of the text.
+    [[nodiscard]] std::size_t next_line_offset() const { return next_; }
+
+    [[nodiscard]] int line() const { return line_; }
+
+    /// Throws Error(input) "PATH:LINE: sentence".
+    [[noreturn]] void fail(const std::string& sentence) const;
+
+  private:
+    void take_line();
+
+    std::string_view text_;
+    std::string path_;
+    char comment_;
+    bool joins_lines_ = false;
+    std::string_view rest_;  ///< of the current line
+    std::size_t next_ = 0;
+    int line_ = 0;
+};
+
+/// The whole word as a number; false if it is something else. Values too small for a double become 0, too
+/// large ones infinite.
+bool parse_real(std::string_view word, double& value);
+bool parse_integer(std::string_view word, long long& value);
+
+/// The word in quotes, cut short and without unprintable bytes, for messages.
+std::string quoted(std::string_view word);
+
+}  // namespace coseg

@@ -1,0 +1,199 @@
+#include "mpi_drivers/co_segmentation.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "io/mesh_list.hpp"
+#include "mpi_drivers/cut_stage.hpp"
+#include "mpi_drivers/feature_stage.hpp"
+#include "mpi_drivers/label_stage.hpp"
+#include "mpi_drivers/mesh_stage.hpp"
+#include "mpi_drivers/output_stage.hpp"
+#include "solvers/petsc_session.hpp"
+#include "solvers/subspace_solver.hpp"
+#include "src/error.hpp"
+#include "src/stage_log.hpp"
+
+namespace coseg {
+
+namespace {
+
+std::string with_unit(std::int64_t count, const std::string& one, const std::string& many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string significant(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+/// Options that begin with `prefix`: those of the eigensolver ("-eps_") are all known before the run, others
+/// only after it.
+void refuse_unused_petsc_options(const Comm& comm, const std::string& prefix) {
+    agree(comm, [&] {
+        std::string list;
+        for (const std::string& option : unused_petsc_options()) {
+            if (option.starts_with(prefix)) list += (list.empty() ? "" : ", ") + option;
+        }
+        if (list.empty()) return;
+        throw Error(ExitCode::usage, "unused PETSc option: " + list + "; check its spelling or leave it out");
+    });
+}
+
+void refuse_no_feature(const RunOptions& options) {
+    const std::vector<double>& weights = options.feature_weights;
+    if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; })) return;
+    throw AgreedError(ExitCode::usage, "--feature-weights: all are zero; give at least one that is positive");
+}
+
+void refuse_too_many_parts(const Collection& collection, const RunOptions& options) {
+    const int patches = collection.numbering.patch_count();
+    if (options.parts <= patches) return;
+    throw AgreedError(ExitCode::input,
+                      "--parts " + std::to_string(options.parts) + " exceeds the " + std::to_string(patches) +
+                          " patches of the collection; ask for fewer parts or more --patches");
+}
+
+/// With --force the labels/, patches/ and ply/ of DIR are replaced: no place for the meshes themselves.
+void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::string& out) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const fs::path results = fs::weakly_canonical(fs::absolute(out), ignored);
+    for (const MeshEntry& entry : entries) {
+        const fs::path folder = fs::weakly_canonical(fs::absolute(entry.path), ignored).parent_path();
+        for (const char* own : {"labels", "patches", "ply"}) {
+            if (!fs::equivalent(folder, results / own, ignored)) continue;
+            throw Error(ExitCode::output, entry.path + ": lies in the folder " + own +
+                                              "/ of the results, which the run replaces; name another --out");
+        }
+    }
+}
+
+/// Rank 0 alone asks the file system; the list is then the same on every rank.
+std::vector<MeshEntry> list_meshes(const Comm& comm, const RunOptions& options) {
+    std::vector<MeshEntry> entries;
+    agree(comm, [&] {
+        if (!comm.is_root()) return;
+        entries = expand_mesh_list(options.inputs);
+        refuse_input_in_results(entries, options.out);
+    });
+    std::vector<std::string> names;
+    std::vector<std::string> paths;
+    std::vector<std::string> sizes;
+    for (const MeshEntry& entry : entries) {
+        names.push_back(entry.name);
+        paths.push_back(entry.path);
+        sizes.push_back(std::to_string(entry.bytes));
+    }
+    broadcast_texts(comm, names);
+    broadcast_texts(comm, paths);
+    broadcast_texts(comm, sizes);
+    entries.resize(names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) entries[k] = {names[k], paths[k], std::stoull(sizes[k])};
+    return entries;
+}
+
+void warn_of_meshes(const Collection& collection, const StageLog& log) {
+    constexpr std::size_t shown = 10;
+    std::size_t told = 0;
+    std::size_t left = 0;
+    const auto tell = [&](const std::string& sentence) {
+        ++told <= shown ? log.warn(sentence) : void(++left);
+    };
+    for (const SetAside& mesh : collection.set_aside) tell("set aside: " + mesh.reason);
+    for (const MeshFacts& mesh : collection.meshes) {
+        for (const std::string& warning : mesh.warnings) tell(warning);
+    }
+    if (left > 0)
+        log.warn(with_unit(static_cast<std::int64_t>(left), "more warning is", "more warnings are") +
+                 " in the report");
+    if (collection.meshes.size() == 1)
+        log.warn("one mesh alone: it is cut by its own features, with nothing to agree with");
+}
+
+Collection describe_stage(const Comm& comm, const RunOptions& options, StageLog& log) {
+    const std::vector<MeshEntry> entries = list_meshes(comm, options);
+    log.begin("describe");
+    Collection collection = describe_collection(comm, entries, options, log);
+    std::int64_t faces = 0;
+    for (const MeshFacts& mesh : collection.meshes) faces += mesh.input_faces;
+    log.end(with_unit(static_cast<std::int64_t>(collection.meshes.size()), "shape", "shapes") + ", " +
+            with_unit(faces, "face", "faces") + ", " +
+            with_unit(collection.numbering.patch_count(), "patch", "patches"));
+    warn_of_meshes(collection, log);
+    refuse_too_many_parts(collection, options);
+    return collection;
+}
+
+SolveResult optimise_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                           const RunOptions& options, StageLog& log) {
+    log.begin("optimise");
+    SubspaceProblem problem;
+    problem.features = features.histograms;
+    problem.alpha = options.alpha;
+    problem.beta = options.beta;
+    problem.lambda = options.lambda;
+    // One mesh has no other mesh to link to: its patches are then compared among themselves.
+    const bool mesh_scope = options.scope == "mesh" && collection.meshes.size() > 1;
+    problem.scope = mesh_scope ? PenaltyScope::mesh : PenaltyScope::paper;
+    problem.mesh_of = collection.numbering.mesh_of();
+    SolveOptions solve;
+    solve.gap = options.gap;
+    solve.max_iterations = options.max_iterations;
+    solve.max_seconds = options.max_seconds;
+    solve.solver = options.solver;
+    SolveResult result = solve_subspace(comm, problem, solve);
+    log.end(with_unit(result.nonzero_groups, "pair", "pairs") + ", gap " + significant(result.relative_gap) +
+            " (" + to_string(result.reason) + ")");
+    if (result.reason == StopReason::iteration_limit || result.reason == StopReason::time_limit) {
+        log.warn("the optimiser stopped at its " +
+                 std::string(result.reason == StopReason::time_limit ? "time" : "iteration") +
+                 " limit with a relative gap of " + significant(result.relative_gap) +
+                 "; raise --max-iterations or --max-seconds");
+    }
+    return result;
+}
+
+}  // namespace
+
+void co_segment(const Comm& comm, const RunOptions& options,
+                const std::vector<std::pair<std::string, std::string>>& resolved,
+                const std::vector<std::string>& petsc_arguments) {
+    StageLog log(comm, options.quiet ? Verbosity::quiet : Verbosity::normal);
+    const std::string unknown = unknown_petsc_option(petsc_arguments);
+    if (!unknown.empty())
+        throw AgreedError(ExitCode::usage, "after --: " + unknown + " is not an option of PETSc or SLEPc");
+    refuse_no_feature(options);
+    const PetscSession session(petsc_arguments);
+    refuse_unused_petsc_options(comm, "-eps_");
+    ResultFolder folder(comm, options.out, options.force);
+
+    Collection collection = describe_stage(comm, options, log);
+
+    log.begin("features");
+    const PatchFeatures features = patch_features(comm, collection, options);
+    log.end(with_unit(static_cast<std::int64_t>(features.histograms.size()), "feature", "features") + " of " +
+            std::to_string(options.bins) + " bins");
+
+    const SolveResult solution = optimise_stage(comm, collection, features, options, log);
+
+    log.begin("cut");
+    const CutResult cut = cut_into_parts(comm, collection, features, solution.coefficients, options);
+    log.end(with_unit(static_cast<std::int64_t>(cut.starts.size()), "start", "starts") + ", " +
+            std::to_string(options.parts) + " parts");
+
+    log.begin("label");
+    const std::vector<MeshLabels> labels = label_faces(collection, cut.part_of_patch, options.parts);
+    log.end("one part per face");
+
+    refuse_unused_petsc_options(comm, "-");
+    log.begin("write");
+    write_meshes(comm, folder, collection, labels);
+    log.end(options.out);
+    write_run_report(comm, folder, {collection, features, solution, cut, labels, options, resolved}, log);
+    folder.commit(comm);
+}
+
+}  // namespace coseg

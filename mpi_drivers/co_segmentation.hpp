@@ -1,0 +1,19 @@
+#pragma once
+// The pipeline of `coseg run`: from a list of meshes to one consistent segmentation, stage by stage.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpi_drivers/run_options.hpp"
+#include "src/comm.hpp"
+
+namespace coseg {
+
+/// Runs all stages and writes the folder options.out. Collective; throws AgreedError.
+/// resolved: the options as the report lists them. petsc_arguments: what follows `--`.
+void co_segment(const Comm& comm, const RunOptions& options,
+                const std::vector<std::pair<std::string, std::string>>& resolved,
+                const std::vector<std::string>& petsc_arguments);
+
+}  // namespace coseg

@@ -1,0 +1,63 @@
+#include "mpi_drivers/cut_stage.hpp"
+
+namespace coseg {
+
+namespace {
+
+std::vector<PatchRelation> global_neighbors(const Collection& collection) {
+    std::vector<PatchRelation> relations;
+    for (const MeshDescription& mesh : collection.local) {
+        for (std::size_t s = 0; s < mesh.neighbors.size(); ++s) {
+            const int first = collection.numbering.first(mesh.mesh, static_cast<int>(s));
+            for (const PatchNeighbors& n : mesh.neighbors[s]) {
+                relations.push_back({first + n.patch_a, first + n.patch_b, n.boundary_length, n.concavity});
+            }
+        }
+    }
+    return relations;
+}
+
+std::vector<OverlapRelation> global_overlaps(const Collection& collection) {
+    std::vector<OverlapRelation> relations;
+    for (const MeshDescription& mesh : collection.local) {
+        for (const OverlapsOfPair& pair : mesh.overlaps) {
+            const int first_a = collection.numbering.first(mesh.mesh, pair.oversegmentation_a);
+            const int first_b = collection.numbering.first(mesh.mesh, pair.oversegmentation_b);
+            for (const PatchOverlap& o : pair.overlaps) {
+                relations.push_back({first_a + o.patch_a, first_b + o.patch_b, o.intersection_over_union});
+            }
+        }
+    }
+    return relations;
+}
+
+CutOptions cut_options(const RunOptions& options) {
+    CutOptions cut;
+    cut.parts = options.parts;
+    cut.form = options.affinity == "formula-8" ? AffinityForm::paper : AffinityForm::links;
+    if (options.preset == "paper") {
+        cut.drop_below = 1e-6;
+        cut.spectral.offset = 0.5;
+    }
+    if (options.choose) {
+        cut.starts = pooled_starts(options.parts);
+    } else {
+        cut.starts = single_start(options.parts, options.adjacency);
+        const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
+        for (CutStart& start : cut.starts) start.cut = start.merging = weights;
+    }
+    return cut;
+}
+
+}  // namespace
+
+CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                         const SparseCoefficients& coefficients, const RunOptions& options) {
+    const std::vector<PatchRelation> neighbors = global_neighbors(collection);
+    const std::vector<OverlapRelation> overlaps = global_overlaps(collection);
+    const std::vector<int> mesh_of = collection.numbering.mesh_of();
+    return co_segmentation_cut(comm, {coefficients, neighbors, overlaps, mesh_of, features.patch_area},
+                               cut_options(options));
+}
+
+}  // namespace coseg

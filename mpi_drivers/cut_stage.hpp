@@ -1,0 +1,17 @@
+#pragma once
+// From coefficients to the part of every patch: hands the relations of patches, in global numbers, to the cut.
+
+#include "mpi_drivers/feature_stage.hpp"
+#include "mpi_drivers/mesh_stage.hpp"
+#include "mpi_drivers/run_options.hpp"
+#include "solvers/co_segmentation_cut.hpp"
+#include "solvers/coefficients.hpp"
+#include "src/comm.hpp"
+
+namespace coseg {
+
+/// Collective. K must not exceed the number of patches. Throws AgreedError(not_converged).
+CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                         const SparseCoefficients& coefficients, const RunOptions& options);
+
+}  // namespace coseg

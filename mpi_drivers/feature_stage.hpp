@@ -1,0 +1,32 @@
+#pragma once
+// From descriptors of faces to features of patches: agreed ranges, shape words, histograms, gathered on every rank.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mpi_drivers/mesh_stage.hpp"
+#include "mpi_drivers/run_options.hpp"
+#include "src/comm.hpp"
+
+namespace coseg {
+
+struct NamedRange {
+    std::string feature;
+    std::string kind;
+    double low = 0.0;
+    double high = 0.0;
+};
+
+struct PatchFeatures {
+    std::vector<Eigen::MatrixXd>
+        histograms;                  ///< features with positive weight: bins x N each, times the weight
+    std::vector<int> feature_of;     ///< which Feature each of them is
+    std::vector<double> patch_area;  ///< N, each mesh's over-segmentation sums to 1
+    std::vector<NamedRange> ranges;  ///< the bin range of every scalar feature, for the report
+};
+
+/// Collective; the same bits on every rank and on any number of ranks. Releases the shape contexts of `collection`.
+PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options);
+
+}  // namespace coseg

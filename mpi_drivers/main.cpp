@@ -1,0 +1,146 @@
+// The one entry and the one exit: parses the command line, runs a subcommand, and turns every failure into one
+// sentence on rank 0 and a documented exit code on all ranks.
+
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "mpi_drivers/command.hpp"
+#include "mpi_drivers/config_file.hpp"
+#include "mpi_drivers/version.hpp"
+#include "src/error.hpp"
+
+namespace {
+
+using coseg::AgreedError;
+using coseg::Comm;
+using coseg::Error;
+using coseg::ExitCode;
+
+struct Arguments {
+    std::vector<std::string> own;    ///< before `--`
+    std::vector<std::string> petsc;  ///< after `--`
+};
+
+Arguments split_arguments(int argc, char** argv) {
+    Arguments arguments;
+    bool after_dashes = false;
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (!after_dashes && argument == "--") {
+            after_dashes = true;
+        } else {
+            (after_dashes ? arguments.petsc : arguments.own).push_back(argument);
+        }
+    }
+    return arguments;
+}
+
+/// CLI11 would only say that a subcommand is required.
+void refuse_unknown_command(const std::vector<coseg::Command>& commands,
+                            const std::vector<std::string>& words) {
+    if (words.empty() || words.front().starts_with("-")) return;
+    const std::string& first = words.front();
+    std::string names;
+    for (const coseg::Command& command : commands) {
+        if (command.app->get_name() == first) return;
+        names += (names.empty() ? "" : ", ") + command.app->get_name();
+    }
+    throw CLI::ParseError("'" + first + "' is not a command; the commands are " + names,
+                          CLI::ExitCodes::ExtrasError);
+}
+
+/// Every rank parses the same words, so every rank fails alike and only rank 0 speaks.
+int report_parse_error(const CLI::App& app, const CLI::ParseError& error, bool is_root) {
+    if (error.get_exit_code() == 0) return is_root ? app.exit(error) : 0;  // --help, --version
+    if (is_root) {
+        std::fprintf(stderr, "coseg: %s\nRun 'coseg --help' or 'coseg COMMAND --help' for the options.\n",
+                     error.what());
+    }
+    return static_cast<int>(ExitCode::usage);
+}
+
+int agreed_exit(const AgreedError& error, bool is_root) {
+    if (is_root) std::fprintf(stderr, "coseg: %s\n", error.what());
+    return static_cast<int>(error.code());
+}
+
+/// A failure that the other ranks do not know of: they may wait in a collective call, so all are ended here.
+[[noreturn]] void end_all_ranks(int rank, const std::string& cause, ExitCode code) {
+    std::fprintf(stderr, "coseg: rank %d: %s\n", rank, cause.c_str());
+    std::fflush(stderr);
+    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+    std::abort();
+}
+
+int run_command(const std::vector<coseg::Command>& commands, const coseg::Invocation& invocation) {
+    const Comm& world = invocation.world;
+    try {
+        for (const coseg::Command& command : commands) {
+            if (command.app->parsed()) command.run(invocation);
+        }
+        return static_cast<int>(ExitCode::success);
+    } catch (const AgreedError& error) {
+        return agreed_exit(error, world.is_root());
+    } catch (const Error& error) {
+        if (world.size() == 1) return agreed_exit(AgreedError(error.code(), error.what()), true);
+        end_all_ranks(world.rank(), error.what(), error.code());
+    } catch (const std::bad_alloc&) {
+        end_all_ranks(world.rank(), "out of memory; use more nodes or fewer shapes", ExitCode::internal);
+    } catch (const std::exception& error) {
+        end_all_ranks(world.rank(), error.what(), ExitCode::internal);
+    }
+}
+
+int parse_and_run(const Comm& world, int argc, char** argv) {
+    const Arguments arguments = split_arguments(argc, argv);
+    CLI::App app("coseg: co-segmentation of collections of 3D shapes", "coseg");
+    app.set_version_flag("--version", coseg::version_text);
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0 success, 1 internal error, 2 usage, 3 input, 4 output, 5 no convergence.");
+    const std::vector<coseg::Command> commands = {coseg::add_run_command(app), coseg::add_score_command(app),
+                                                  coseg::add_generate_command(app),
+                                                  coseg::add_solve_command(app)};
+    try {
+        refuse_unknown_command(commands, arguments.own);
+        std::vector<std::string> words = coseg::with_config_file(world, arguments.own);
+        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        app.parse(words);
+    } catch (const CLI::ParseError& error) {
+        return report_parse_error(app, error, world.is_root());
+    } catch (const AgreedError& error) {
+        return agreed_exit(error, world.is_root());
+    }
+    return run_command(commands, {world, arguments.petsc});
+}
+
+/// A result that could not be printed (a full disk, a closed pipe) is no success.
+int with_output_written(int code) {
+    std::cout.flush();
+    if (std::cout.good() || code != static_cast<int>(ExitCode::success)) return code;
+    std::fprintf(stderr, "coseg: standard output cannot be written; redirect it to where there is space\n");
+    return static_cast<int>(ExitCode::output);
+}
+
+}  // namespace
+
+// What is thrown outside a subcommand (out of memory at start) may end the program at once.
+// NOLINTNEXTLINE(bugprone-exception-escape)
+int main(int argc, char** argv) {
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);  // threads that watch call no MPI
+    int code = 0;
+    {
+        const Comm world(MPI_COMM_WORLD);
+        code = with_output_written(parse_and_run(world, argc, argv));
+    }
+    MPI_Finalize();
+    return code;
+}

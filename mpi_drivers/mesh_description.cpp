@@ -1,0 +1,126 @@
+#include "mpi_drivers/mesh_description.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "io/mesh_reader.hpp"
+#include "solvers/oversegmentation.hpp"
+#include "src/average_geodesic.hpp"
+#include "src/conformal_factor.hpp"
+#include "src/gaussian_curvature.hpp"
+#include "src/geodesic.hpp"
+#include "src/midpoint_refinement.hpp"
+#include "src/minimum_curvature.hpp"
+#include "src/seeded_random.hpp"
+#include "src/shape_context.hpp"
+#include "src/shape_diameter.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// Below this many faces a patch a boundary between patches is too ragged to follow a crease.
+constexpr int faces_per_patch = 20;
+
+/// Adds the time since it was made, or since the last step, to a step of the description.
+class StepClock {
+  public:
+    explicit StepClock(MeshDescription& description) : description_(description) {}
+    void end_of(DescribeStep step) {
+        const Clock::time_point now = Clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        description_.step_seconds[static_cast<std::size_t>(step)] += seconds;
+        description_.seconds += seconds;
+        last_ = now;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    MeshDescription& description_;
+    Clock::time_point last_ = Clock::now();
+};
+
+TriMesh working_mesh(MeshDescription& description, const std::string& path, const RunOptions& options) {
+    RepairedMesh repaired = repair(description.input, path);
+    description.warnings = std::move(repaired.warnings);
+    description.map = std::move(repaired.map);
+    const int coarse = repaired.mesh.face_count();
+    const int wanted = options.patches * faces_per_patch;
+    if (coarse < wanted) {
+        refine_to_face_count(repaired.mesh, description.map, wanted);
+        description.warnings.push_back(path + ": only " + std::to_string(coarse) +
+                                       (coarse == 1 ? " triangle for " : " triangles for ") +
+                                       std::to_string(options.patches) + " patches: refined internally to " +
+                                       std::to_string(repaired.mesh.face_count()));
+    }
+    scale_to_unit_area(repaired.mesh);
+    return std::move(repaired.mesh);
+}
+
+Eigen::VectorXd& descriptor(MeshDescription& description, Feature feature) {
+    return description.descriptors[static_cast<std::size_t>(feature)];
+}
+
+void describe_faces(MeshDescription& description, const TriMesh& mesh, const RunOptions& options,
+                    StepClock& clock) {
+    const FaceGeometry& geometry = description.geometry;
+    descriptor(description, Feature::gaussian_curvature) = gaussian_curvature(mesh, geometry);
+    clock.end_of(DescribeStep::curvature);
+    descriptor(description, Feature::shape_diameter) = shape_diameter(mesh, geometry, description.graph);
+    clock.end_of(DescribeStep::shape_diameter);
+    descriptor(description, Feature::conformal_factor) = conformal_factor(mesh, geometry);
+    clock.end_of(DescribeStep::conformal_factor);
+    const GeodesicTable table = geodesic_table(mesh, geometry, description.graph, options.geodesic_samples,
+                                               hash_words({options.seed, description.key}));
+    clock.end_of(DescribeStep::geodesics);
+    descriptor(description, Feature::average_geodesic) = average_geodesic(table);
+    description.shape_context = shape_context(table, geometry);
+    clock.end_of(DescribeStep::contexts);
+}
+
+void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const RunOptions& options,
+                      StepClock& clock) {
+    const Eigen::VectorXd curvature = minimum_curvature(mesh, description.geometry);
+    clock.end_of(DescribeStep::curvature);
+    for (int s = 0; s < options.oversegmentations; ++s) {
+        const std::uint64_t seed = hash_words({options.seed, description.key, static_cast<std::uint64_t>(s)});
+        const OversegmentationOptions choice{.patches = options.patches, .noise = options.cut_noise};
+        description.patches.push_back(oversegment(description.geometry, description.graph, choice, seed));
+        clock.end_of(DescribeStep::oversegmentation);
+        const std::vector<int>& patches = description.patches.back();
+        description.patch_counts.push_back(*std::max_element(patches.begin(), patches.end()) + 1);
+        description.neighbors.push_back(patch_neighbors(description.graph, patches, curvature));
+        clock.end_of(DescribeStep::relations);
+    }
+    for (int a = 0; a < options.oversegmentations; ++a) {
+        for (int b = a + 1; b < options.oversegmentations; ++b) {
+            const std::vector<int>& patches_a = description.patches[static_cast<std::size_t>(a)];
+            const std::vector<int>& patches_b = description.patches[static_cast<std::size_t>(b)];
+            description.overlaps.push_back(
+                {a, b, patch_overlaps(description.geometry, patches_a, patches_b)});
+        }
+    }
+    clock.end_of(DescribeStep::relations);
+}
+
+}  // namespace
+
+MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
+                              const RunOptions& options) {
+    MeshDescription description;
+    StepClock clock(description);
+    description.mesh = mesh;
+    description.key = hash_text(name);
+    description.input = read_mesh(path);
+    clock.end_of(DescribeStep::read);
+    const TriMesh working = working_mesh(description, path, options);
+    clock.end_of(DescribeStep::repair);
+    description.geometry = face_geometry(working);
+    description.graph = dual_graph(working, description.geometry);
+    clock.end_of(DescribeStep::dual_graph);
+    describe_faces(description, working, options, clock);
+    cut_into_patches(description, working, options, clock);
+    return description;
+}
+
+}  // namespace coseg

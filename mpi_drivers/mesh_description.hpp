@@ -1,0 +1,79 @@
+#pragma once
+// All that is computed from one mesh alone: its patches, the descriptors of its faces, how patches touch and overlap.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mpi_drivers/run_options.hpp"
+#include "src/dual_graph.hpp"
+#include "src/face_geometry.hpp"
+#include "src/mesh_repair.hpp"
+#include "src/patch_relations.hpp"
+#include "src/polygon_mesh.hpp"
+
+namespace coseg {
+
+/// The scalar descriptors in the order in which the features are numbered; shape contexts become feature 3.
+enum class Feature : int {
+    gaussian_curvature,
+    shape_diameter,
+    average_geodesic,
+    shape_context,
+    conformal_factor
+};
+inline constexpr int feature_total = 5;
+inline constexpr std::array<const char*, feature_total> feature_names = {
+    "gaussian_curvature", "shape_diameter", "average_geodesic", "shape_context", "conformal_factor"};
+
+/// What the time of a description is spent on, in the order of the work.
+enum class DescribeStep : int {
+    read,
+    repair,
+    dual_graph,
+    curvature,
+    shape_diameter,
+    conformal_factor,
+    geodesics,
+    contexts,
+    oversegmentation,
+    relations
+};
+inline constexpr int describe_step_total = 10;
+inline constexpr std::array<const char*, describe_step_total> describe_step_names = {
+    "read",      "repair",   "dual_graph",       "curvature", "shape_diameter", "conformal_factor",
+    "geodesics", "contexts", "oversegmentation", "relations"};
+
+struct OverlapsOfPair {
+    int oversegmentation_a = 0;  ///< a < b
+    int oversegmentation_b = 0;
+    std::vector<PatchOverlap> overlaps;
+};
+
+struct MeshDescription {
+    int mesh = 0;           ///< number in the collection
+    std::uint64_t key = 0;  ///< hash of the name: the mesh's own randomness
+    PolygonMesh input;
+    FaceMap map;
+    FaceGeometry geometry;  ///< of the working mesh, area 1
+    DualGraph graph;
+    std::array<Eigen::VectorXd, feature_total>
+        descriptors;                        ///< F each; the shape context's entry stays empty
+    Eigen::MatrixXf shape_context;          ///< bins x F
+    std::vector<std::vector<int>> patches;  ///< per over-segmentation: patch of each working face
+    std::vector<int> patch_counts;          ///< per over-segmentation
+    std::vector<std::vector<PatchNeighbors>> neighbors;  ///< per over-segmentation
+    std::vector<OverlapsOfPair> overlaps;
+    std::vector<std::string> warnings;
+    double seconds = 0.0;
+    std::array<double, describe_step_total> step_seconds{};
+};
+
+/// Reads, repairs, over-segments and describes one mesh. Serial; a function of the file and the options alone.
+/// Throws Error(input) if the file cannot be used.
+MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
+                              const RunOptions& options);
+
+}  // namespace coseg

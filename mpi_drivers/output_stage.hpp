@@ -1,0 +1,58 @@
+#pragma once
+// What a run leaves: labels, patches and coloured meshes per shape, and the report.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/output_directory.hpp"
+#include "mpi_drivers/cut_stage.hpp"
+#include "mpi_drivers/feature_stage.hpp"
+#include "mpi_drivers/label_stage.hpp"
+#include "mpi_drivers/mesh_stage.hpp"
+#include "mpi_drivers/termination_watch.hpp"
+#include "solvers/subspace_solver.hpp"
+#include "src/comm.hpp"
+#include "src/stage_log.hpp"
+
+namespace coseg {
+
+/// The folder that all ranks write into: rank 0 makes it beside DIR and renames it at the end, so that a run that fails
+/// or is told to end leaves DIR as it was.
+class ResultFolder {
+  public:
+    /// Collective; throws AgreedError(output) if DIR is not empty and `force` is off, or cannot be made.
+    ResultFolder(const Comm& comm, const std::string& path, bool force);
+
+    /// Where files are written until commit.
+    [[nodiscard]] const std::string& staging() const noexcept { return staging_; }
+
+    /// Collective; after it DIR holds the result.
+    void commit(const Comm& comm);
+
+  private:
+    std::optional<OutputDirectory> on_root_;
+    std::optional<TerminationWatch> watch_;
+    std::string staging_;
+};
+
+/// Collective: labels/NAME.seg, patches/NAME.seg, ply/NAME.ply of this rank's meshes.
+void write_meshes(const Comm& comm, const ResultFolder& folder, const Collection& collection,
+                  const std::vector<MeshLabels>& labels);
+
+struct RunOutcome {
+    const Collection& collection;
+    const PatchFeatures& features;
+    const SolveResult& solution;
+    const CutResult& cut;
+    const std::vector<MeshLabels>& labels;
+    const RunOptions& options;
+    const std::vector<std::pair<std::string, std::string>>& resolved;
+};
+
+/// Collective: report.json, by rank 0.
+void write_run_report(const Comm& comm, const ResultFolder& folder, const RunOutcome& outcome,
+                      const StageLog& log);
+
+}  // namespace coseg

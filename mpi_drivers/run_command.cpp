@@ -1,0 +1,23 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "mpi_drivers/co_segmentation.hpp"
+#include "mpi_drivers/command.hpp"
+#include "mpi_drivers/run_option_table.hpp"
+#include "mpi_drivers/run_options.hpp"
+
+namespace coseg {
+
+Command add_run_command(CLI::App& parent) {
+    CLI::App* app = parent.add_subcommand("run", "Cut a collection of shapes into the same parts");
+    const auto options = std::make_shared<RunOptions>();
+    const auto table = std::make_shared<RunOptionTable>(*app, *options);
+    app->footer(
+        "What follows -- goes to PETSc and SLEPc.\nExample: mpirun -n 4 coseg run --parts 4 --out result "
+        "chairs/");
+    return {app, [options, table](const Invocation& invocation) {
+                co_segment(invocation.world, *options, table->resolved(), invocation.petsc_arguments);
+            }};
+}
+
+}  // namespace coseg

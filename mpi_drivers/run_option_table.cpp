@@ -1,0 +1,176 @@
+#include "mpi_drivers/run_option_table.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <type_traits>
+
+namespace coseg {
+
+namespace {
+
+constexpr const char* in_out_group = "Input and output";
+constexpr const char* patches_group = "Patches and features";
+constexpr const char* optimise_group = "Optimisation";
+constexpr const char* partition_group = "Partition into parts";
+
+template <class T>
+std::string printed(const T& value) {
+    std::ostringstream text;
+    if constexpr (std::is_same_v<T, bool>) {
+        text << (value ? "true" : "false");
+    } else if constexpr (std::is_same_v<T, std::vector<double>> ||
+                         std::is_same_v<T, std::vector<std::string>>) {
+        for (std::size_t i = 0; i < value.size(); ++i) text << (i > 0 ? "," : "") << value[i];
+    } else {
+        text << value;
+    }
+    return text.str();
+}
+
+/// CLI::Range lets NaN pass, and takes a negative number for a large one where the variable has no sign.
+const CLI::Validator finite_number(
+    [](std::string& text) {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && !std::isfinite(value)) return text + " is not finite";
+        return std::string();
+    },
+    "");
+
+const CLI::Validator unsigned_number(
+    [](std::string& text) { return text.starts_with("-") ? text + " is negative" : std::string(); }, "");
+
+}  // namespace
+
+template <class T>
+CLI::Option* RunOptionTable::add(CLI::App& app, const std::string& key, T& variable, const std::string& help,
+                                 const std::string& group) {
+    printers_.emplace_back(key, [&variable] { return printed(variable); });
+    CLI::Option* option = app.add_option("--" + key, variable, help)->capture_default_str()->group(group);
+    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::vector<double>>) {
+        option->check(finite_number);
+    }
+    if constexpr (std::is_unsigned_v<T>) option->check(unsigned_number);
+    return option;
+}
+
+CLI::Option* RunOptionTable::add_switch(CLI::App& app, const std::string& key, bool& variable,
+                                        const std::string& help, const std::string& group) {
+    printers_.emplace_back(key, [&variable] { return printed(variable); });
+    const std::string standard = variable ? " (on by default)" : " (off by default)";
+    return app.add_flag("--" + key + ",!--no-" + key, variable, help + standard)->group(group);
+}
+
+RunOptionTable::RunOptionTable(CLI::App& app, RunOptions& options) : options_(options) {
+    add_input_and_output(app);
+    add_patches_and_features(app);
+    add_optimisation(app);
+    add_partition(app);
+}
+
+void RunOptionTable::add_input_and_output(CLI::App& app) {
+    // The preset is the first option because CLI11 runs callbacks in the order of definition: what else is given overrides it.
+    printers_.emplace_back("preset", [this] { return options_.preset; });
+    app.add_option_function<std::string>(
+           "--preset", [this](const std::string& preset) { options_ = preset_options(preset); },
+           "default, or paper: the literal text of the paper; other options override it")
+        ->check(CLI::IsMember({"default", "paper"}))
+        ->default_str("default")
+        ->group(in_out_group);
+    app.add_option("input", options_.inputs,
+                   "Meshes (OFF, OBJ, PLY, STL), folders of them, or @LIST: a file with a path a line")
+        ->required()
+        ->type_name("MESH|DIRECTORY|@LIST");
+    add(app, "parts", options_.parts, "Number of parts K that the shapes are cut into", in_out_group)
+        ->required()
+        ->check(CLI::Range(1, 1000));
+    add(app, "out", options_.out, "Folder for the results; must be new or empty unless --force", in_out_group)
+        ->required();
+    add_switch(app, "force", options_.force, "Replace earlier results in a folder that is not empty",
+               in_out_group);
+    add_switch(app, "strict", options_.strict,
+               "A mesh that cannot be used ends the run instead of being set aside", in_out_group);
+    add_switch(app, "quiet", options_.quiet, "No progress lines; warnings and errors only", in_out_group);
+    add(app, "seed", options_.seed, "Seed of all randomness; the same seed gives the same bytes",
+        in_out_group);
+    add(app, "config", options_.config, "Read options from a TOML or INI file; the command line wins",
+        in_out_group)
+        ->type_name("FILE");
+}
+
+void RunOptionTable::add_patches_and_features(CLI::App& app) {
+    add(app, "patches", options_.patches, "Patches per over-segmentation of a mesh", patches_group)
+        ->check(CLI::Range(2, 1000));
+    add(app, "oversegmentations", options_.oversegmentations, "Over-segmentations per mesh, pooled",
+        patches_group)
+        ->check(CLI::Range(1, 20));
+    add(app, "cut-noise", options_.cut_noise,
+        "Log-normal noise on edge weights that makes over-segmentations differ", patches_group)
+        ->check(CLI::Range(0.0, 2.0));
+    add(app, "geodesic-samples", options_.geodesic_samples,
+        "Sample points a mesh for geodesic distances and shape contexts", patches_group)
+        ->check(CLI::Range(10, 5000));
+    add(app, "bins", options_.bins, "Histogram bins, and words of shape contexts", patches_group)
+        ->check(CLI::Range(2, 1000));
+    add(app, "histogram", options_.histogram, "Scaling of histograms: counts, unit-sum, square-root",
+        patches_group)
+        ->check(CLI::IsMember({"counts", "unit-sum", "square-root"}));
+    add(app, "ranges", options_.ranges,
+        "Bin ranges: adapted (curvature in equal-mass bins, the others rescaled per mesh), or global (equal "
+        "widths over all meshes)",
+        patches_group)
+        ->check(CLI::IsMember({"adapted", "global"}));
+    add(app, "feature-weights", options_.feature_weights,
+        "Weights of curvature, shape diameter, geodesic distance, shape context, conformal factor; 0 leaves "
+        "one out",
+        patches_group)
+        ->delimiter(',')
+        ->expected(5)
+        ->allow_extra_args(false)  // or the inputs after it would be taken for weights
+        ->check(CLI::Range(0.0, 1000.0));
+}
+
+void RunOptionTable::add_optimisation(CLI::App& app) {
+    add(app, "scope", options_.scope,
+        "What lambda's squared sums run over: paper (whole rows), or mesh (the links of a patch to one mesh)",
+        optimise_group)
+        ->check(CLI::IsMember({"paper", "mesh"}));
+    add(app, "alpha", options_.alpha, "Weight of the l2,1 penalty: consistency over the features",
+        optimise_group)
+        ->check(CLI::Range(0.0, 1e12));
+    add(app, "beta", options_.beta, "Weight of the l1 penalty: sparseness", optimise_group)
+        ->check(CLI::Range(0.0, 1e12));
+    add(app, "lambda", options_.lambda, "Weight of the squared sums", optimise_group)
+        ->check(CLI::Range(0.0, 1e12));
+    add(app, "solver", options_.solver, "auto, dense or working-set", optimise_group)
+        ->check(CLI::IsMember({"auto", "dense", "working-set"}));
+    add(app, "gap", options_.gap, "Relative duality gap at which the optimiser stops", optimise_group)
+        ->check(CLI::Range(1e-12, 1.0));
+    add(app, "max-iterations", options_.max_iterations, "Limit of the optimiser's iterations", optimise_group)
+        ->check(CLI::Range(1, 100000000));
+    add(app, "max-seconds", options_.max_seconds, "Limit of the optimiser's time", optimise_group)
+        ->check(CLI::Range(0.001, 1e9));
+}
+
+void RunOptionTable::add_partition(CLI::App& app) {
+    add(app, "affinity", options_.affinity,
+        "links (row-normalised links between meshes) or formula-8 (the paper's)", partition_group)
+        ->check(CLI::IsMember({"links", "formula-8"}));
+    add(app, "adjacency", options_.adjacency,
+        "Weight of the adjacency of patches of a mesh against their links to other meshes; 0 gives the "
+        "paper's text",
+        partition_group)
+        ->check(CLI::Range(0.0, 1000.0));
+    add(app, "overlap", options_.overlap,
+        "Weight of overlaps between over-segmentations, as a share of adjacency", partition_group)
+        ->check(CLI::Range(0.0, 1000.0));
+    add_switch(app, "choose", options_.choose,
+               "Try several adjacency weights and cluster numbers, choose without labels", partition_group);
+}
+
+std::vector<std::pair<std::string, std::string>> RunOptionTable::resolved() const {
+    std::vector<std::pair<std::string, std::string>> values;
+    for (const auto& [key, print] : printers_) values.emplace_back(key, print());
+    return values;
+}
+
+}  // namespace coseg

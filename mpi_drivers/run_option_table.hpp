@@ -1,0 +1,38 @@
+#pragma once
+// The one table of the options of `coseg run`: key, type, default, range and help; it gives --help, the validation, the
+// configuration file and the resolved options of the report.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mpi_drivers/run_options.hpp"
+
+namespace coseg {
+
+/// Adds every option to `app` and remembers how to print its resolved value. `options` must outlive both.
+class RunOptionTable {
+  public:
+    RunOptionTable(CLI::App& app, RunOptions& options);
+
+    /// (key, value) of every option after parsing, in the order of --help.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> resolved() const;
+
+  private:
+    void add_input_and_output(CLI::App& app);
+    void add_patches_and_features(CLI::App& app);
+    void add_optimisation(CLI::App& app);
+    void add_partition(CLI::App& app);
+    template <class T>
+    CLI::Option* add(CLI::App& app, const std::string& key, T& variable, const std::string& help,
+                     const std::string& group);
+    CLI::Option* add_switch(CLI::App& app, const std::string& key, bool& variable, const std::string& help,
+                            const std::string& group);
+
+    RunOptions& options_;
+    std::vector<std::pair<std::string, std::function<std::string()>>> printers_;
+};
+
+}  // namespace coseg

@@ -1,0 +1,51 @@
+#pragma once
+// What `coseg run` is asked to do: every option's value, and the presets.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace coseg {
+
+struct RunOptions {
+    std::string preset = "default";
+
+    std::vector<std::string> inputs;
+    int parts = 0;
+    std::string out;
+    std::string config;
+    bool force = false;
+    bool strict = false;
+    bool quiet = false;
+    std::uint64_t seed = 1;
+
+    int patches = 50;
+    int oversegmentations = 3;
+    double cut_noise = 0.3;
+
+    int geodesic_samples = 300;
+    int bins = 100;
+    std::string histogram = "square-root";
+    std::string ranges = "adapted";
+    std::vector<double> feature_weights = {1.0, 0.5, 1.0, 2.0, 1.0};
+
+    std::string scope = "mesh";
+    double alpha = 0.01;
+    double beta = 0.1;
+    double lambda = 100.0;
+    std::string solver = "auto";
+    double gap = 1e-4;
+    int max_iterations = 10000;
+    double max_seconds = 3600.0;
+
+    std::string affinity = "links";
+    double adjacency = 5.0;
+    double overlap = 1.0;
+    bool choose = true;
+};
+
+/// The options that a preset stands for: "default", or "paper" for the literal text of Hu, Fan and Liu (2012).
+/// Options given on the command line or in the configuration file override the preset's.
+RunOptions preset_options(const std::string& preset);
+
+}  // namespace coseg

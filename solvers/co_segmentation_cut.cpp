@@ -1,0 +1,348 @@
+#include "solvers/co_segmentation_cut.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "solvers/affinity.hpp"
+#include "solvers/graph_components.hpp"
+#include "solvers/normalized_cut.hpp"
+#include "src/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// The terms of every start's graph, rows as the group that works on a graph owns them.
+struct CutTerms {
+    SparseRows base;
+    SparseRows adjacency;
+    SparseRows overlap;
+    double adjacency_scale = 0.0;
+    double overlap_scale = 0.0;
+    std::vector<PatchRelation> neighbors;
+    SparseRows bonds;  ///< A' + O', complete: what a patch set aside follows
+};
+
+struct LabelledOutcome {
+    int index = 0;
+    StartOutcome outcome;
+    std::vector<int> labels;
+};
+
+void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOptions& options) {
+    agree(comm, [&] {
+        const auto patches = static_cast<std::int64_t>(input.mesh_of.size());
+        if (options.parts < 1 || options.parts > patches) {
+            throw Error(ExitCode::usage, std::to_string(options.parts) +
+                                             " parts are asked for, but there are " +
+                                             std::to_string(patches) + " patches; ask for 1 to " +
+                                             std::to_string(patches) + " parts or for more patches");
+        }
+        if (input.coefficients.size != patches ||
+            static_cast<std::int64_t>(input.patch_area.size()) != patches) {
+            throw Error(ExitCode::internal,
+                        "coefficients, meshes and areas of the cut are of different lengths");
+        }
+        if (options.starts.empty()) throw Error(ExitCode::internal, "a cut without a start");
+    });
+}
+
+SparseRows base_affinity(const Comm& comm, const CutInput& input, const CutOptions& options,
+                         const std::vector<PatchRelation>& neighbors) {
+    SparseRows base = options.form == AffinityForm::paper ? symmetric_affinity(comm, input.coefficients)
+                                                          : normalized_links(comm, input.coefficients);
+    if (options.minima_rule) apply_minima_rule(base, neighbors);
+    return base;
+}
+
+/// `one_rank`: the group that works on a graph is one rank, so every rank holds complete terms.
+CutTerms cut_terms(const Comm& comm, const Comm& self, bool one_rank, const CutInput& input,
+                   const CutOptions& options) {
+    const auto size = static_cast<std::int64_t>(input.mesh_of.size());
+    const BlockRange all{0, size};
+    CutTerms terms;
+    terms.neighbors = gather_relations(comm, input.neighbors_local, static_cast<int>(size));
+    const std::vector<OverlapRelation> overlaps =
+        gather_relations(comm, input.overlaps_local, static_cast<int>(size));
+    const SparseRows adjacency = adjacency_affinity(all, terms.neighbors, input.mesh_of);
+    const SparseRows overlap = overlap_affinity(all, overlaps, size);
+    terms.base = base_affinity(comm, input, options, terms.neighbors);
+    const double base_total = total(comm, terms.base);
+    const double reference = base_total > 0.0 ? base_total : static_cast<double>(size);
+    const double adjacency_total = total(self, adjacency);
+    const double overlap_total = total(self, overlap);
+    terms.adjacency_scale = adjacency_total > 0.0 ? reference / adjacency_total : 0.0;
+    terms.overlap_scale = overlap_total > 0.0 ? reference / overlap_total : 0.0;
+    const WeightedMatrix bonds[] = {{&adjacency, terms.adjacency_scale}, {&overlap, terms.overlap_scale}};
+    terms.bonds = weighted_sum(bonds);
+    if (one_rank) {
+        terms.base = gather_rows(comm, terms.base);
+        terms.adjacency = adjacency;
+        terms.overlap = overlap;
+    } else {
+        terms.adjacency = adjacency_affinity(terms.base.rows, terms.neighbors, input.mesh_of);
+        terms.overlap = overlap_affinity(terms.base.rows, overlaps, size);
+    }
+    return terms;
+}
+
+SparseRows graph_of(const CutTerms& terms, GraphWeights weights, double drop_below) {
+    const WeightedMatrix parts[] = {{&terms.base, 1.0},
+                                    {&terms.adjacency, weights.adjacency * terms.adjacency_scale},
+                                    {&terms.overlap, weights.overlap * terms.overlap_scale}};
+    SparseRows graph = weighted_sum(parts);
+    if (drop_below > 0.0) drop_small_entries(graph, drop_below);
+    return graph;
+}
+
+std::vector<int> cluster_sizes(const std::vector<int>& labels, int clusters) {
+    std::vector<int> sizes(static_cast<std::size_t>(clusters), 0);
+    for (const int label : labels) {
+        if (label >= 0) ++sizes[static_cast<std::size_t>(label)];
+    }
+    return sizes;
+}
+
+/// Everything that the starts of one graph share.
+struct GraphCut {
+    const Comm& group;
+    const CutInput& input;
+    const CutOptions& options;
+    const CutTerms& terms;
+    const SparseRows& graph;
+    const SparseRows& scoring;
+    const SpectralEmbedding& embedding;
+};
+
+/// Clusters of a start for every patch, those set aside included.
+std::vector<int> start_clusters(const GraphCut& cut, int clusters, StartOutcome& outcome) {
+    std::vector<int> labels = cut_embedding(cut.embedding, clusters, cut.graph.size);
+    const std::vector<int> sizes = cluster_sizes(labels, clusters);
+    const auto largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+    outcome.set_aside = static_cast<int>(std::count(labels.begin(), labels.end(), -1));
+    outcome.unreached = attach_set_aside(labels, cut.terms.bonds, largest);
+    return labels;
+}
+
+PartitionTerms terms_of(const GraphCut& cut, const std::vector<int>& labels, int parts) {
+    PartitionTerms terms;
+    terms.association = normalized_association(cluster_links(cut.group, cut.scoring, labels, parts));
+    terms.concavity = boundary_concavity(cut.terms.neighbors, labels);
+    terms.entropy = entropy(mean_area_shares(labels, parts, cut.input.patch_area, cut.input.mesh_of));
+    return terms;
+}
+
+/// The part of each cluster of a start.
+std::vector<int> merged_clusters(const GraphCut& cut, const CutStart& start, const std::vector<int>& labels,
+                                 int clusters) {
+    const bool same_graph = start.merging == start.cut;
+    const SparseRows other = same_graph ? SparseRows{} : graph_of(cut.terms, start.merging, 0.0);
+    const ClusterLinks links = cluster_links(cut.group, same_graph ? cut.graph : other, labels, clusters);
+    const Eigen::MatrixXd shares = area_shares(labels, clusters, cut.input.patch_area, cut.input.mesh_of);
+    return merge_clusters(links, shares, cluster_sizes(labels, clusters), cut.options.parts, start.rule);
+}
+
+LabelledOutcome run_start(const GraphCut& cut, int index) {
+    const CutStart& start = cut.options.starts[static_cast<std::size_t>(index)];
+    const int clusters = std::min(start.clusters, static_cast<int>(cut.embedding.eigenvalues.size()));
+    LabelledOutcome result;
+    result.index = index;
+    result.outcome.start = start;
+    result.outcome.eigenvalues.assign(cut.embedding.eigenvalues.begin(),
+                                      cut.embedding.eigenvalues.begin() + clusters);
+    result.labels = start_clusters(cut, clusters, result.outcome);
+    const std::vector<int> part_of_cluster = merged_clusters(cut, start, result.labels, clusters);
+    for (int& label : result.labels) label = part_of_cluster[static_cast<std::size_t>(label)];
+    result.outcome.parts_found = 1 + *std::max_element(result.labels.begin(), result.labels.end());
+    // Numbered alike, partitions that are the same have the same terms to the last bit.
+    result.labels =
+        canonical_labels(result.labels, cut.options.parts, cut.input.patch_area, cut.input.mesh_of);
+    result.outcome.terms = terms_of(cut, result.labels, cut.options.parts);
+    return result;
+}
+
+/// The starts that share a graph, in the order of their first.
+std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& starts) {
+    std::vector<std::vector<int>> groups;
+    for (std::size_t k = 0; k < starts.size(); ++k) {
+        const auto same = std::find_if(groups.begin(), groups.end(), [&](const std::vector<int>& group) {
+            return starts[static_cast<std::size_t>(group.front())].cut == starts[k].cut;
+        });
+        if (same == groups.end()) {
+            groups.push_back({static_cast<int>(k)});
+        } else {
+            same->push_back(static_cast<int>(k));
+        }
+    }
+    return groups;
+}
+
+std::vector<LabelledOutcome> run_graph(const Comm& group, const CutInput& input, const CutOptions& options,
+                                       const CutTerms& terms, const SparseRows& scoring,
+                                       const std::vector<int>& starts) {
+    const CutStart& first = options.starts[static_cast<std::size_t>(starts.front())];
+    const SparseRows graph = graph_of(terms, first.cut, options.drop_below);
+    int count = options.parts;
+    for (const int k : starts) count = std::max(count, options.starts[static_cast<std::size_t>(k)].clusters);
+    const SpectralEmbedding embedding =
+        spectral_embedding(group, graph, options.parts, count, options.spectral);
+    const GraphCut cut{group, input, options, terms, graph, scoring, embedding};
+    std::vector<LabelledOutcome> outcomes;
+    for (const int k : starts) outcomes.push_back(run_start(cut, k));
+    return outcomes;
+}
+
+/// Outcomes of all ranks on all ranks, in the order of starts. Collective.
+std::vector<LabelledOutcome> share_outcomes(const Comm& comm, const std::vector<LabelledOutcome>& local,
+                                            const CutOptions& options, std::size_t patches) {
+    std::vector<int> numbers;
+    std::vector<double> values;
+    for (const LabelledOutcome& r : local) {
+        numbers.insert(numbers.end(), {r.index, r.outcome.parts_found, r.outcome.set_aside,
+                                       r.outcome.unreached, static_cast<int>(r.outcome.eigenvalues.size())});
+        numbers.insert(numbers.end(), r.labels.begin(), r.labels.end());
+        values.insert(values.end(),
+                      {r.outcome.terms.association, r.outcome.terms.concavity, r.outcome.terms.entropy});
+        values.insert(values.end(), r.outcome.eigenvalues.begin(), r.outcome.eigenvalues.end());
+    }
+    numbers = all_gather(comm, std::span<const int>(numbers));
+    values = all_gather(comm, std::span<const double>(values));
+    std::vector<LabelledOutcome> all(options.starts.size());
+    auto number = numbers.begin();
+    auto value = values.begin();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const int index = *number++;
+        LabelledOutcome& r = all[static_cast<std::size_t>(index)];
+        r.index = index;
+        r.outcome.start = options.starts[static_cast<std::size_t>(index)];
+        r.outcome.parts_found = *number++;
+        r.outcome.set_aside = *number++;
+        r.outcome.unreached = *number++;
+        const int eigenvalues = *number++;
+        r.labels.assign(number, number + static_cast<std::ptrdiff_t>(patches));
+        number += static_cast<std::ptrdiff_t>(patches);
+        r.outcome.terms = {value[0], value[1], value[2]};
+        value += 3;
+        r.outcome.eigenvalues.assign(value, value + eigenvalues);
+        value += eigenvalues;
+    }
+    return all;
+}
+
+/// Graphs dealt over the ranks, each cut by one of them. Collective.
+std::vector<LabelledOutcome> run_dealt(const Comm& comm, const Comm& self, const CutInput& input,
+                                       const CutOptions& options, const CutTerms& terms) {
+    const std::vector<std::vector<int>> graphs = starts_by_graph(options.starts);
+    std::vector<LabelledOutcome> mine;
+    agree(comm, [&] {
+        const SparseRows scoring = graph_of(terms, {options.score_weight, options.score_weight}, 0.0);
+        for (auto q = static_cast<std::size_t>(comm.rank()); q < graphs.size();
+             q += static_cast<std::size_t>(comm.size())) {
+            for (LabelledOutcome& r : run_graph(self, input, options, terms, scoring, graphs[q])) {
+                mine.push_back(std::move(r));
+            }
+        }
+    });
+    return share_outcomes(comm, mine, options, input.mesh_of.size());
+}
+
+/// One graph after the other, each cut by all ranks. Collective.
+std::vector<LabelledOutcome> run_together(const Comm& comm, const CutInput& input, const CutOptions& options,
+                                          const CutTerms& terms) {
+    const SparseRows scoring = graph_of(terms, {options.score_weight, options.score_weight}, 0.0);
+    std::vector<LabelledOutcome> all(options.starts.size());
+    for (const std::vector<int>& starts : starts_by_graph(options.starts)) {
+        for (LabelledOutcome& r : run_graph(comm, input, options, terms, scoring, starts)) {
+            all[static_cast<std::size_t>(r.index)] = std::move(r);
+        }
+    }
+    return all;
+}
+
+std::size_t choose(std::vector<LabelledOutcome>& outcomes, const ChoiceWeights& weights) {
+    std::vector<PartitionTerms> terms;
+    for (const LabelledOutcome& r : outcomes) terms.push_back(r.outcome.terms);
+    const std::vector<double> scores = partition_scores(terms, weights);
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+        outcomes[k].outcome.score = scores[k];
+        const auto rank = [&](std::size_t i) {
+            return std::pair(outcomes[i].outcome.parts_found, scores[i]);
+        };
+        if (rank(k) > rank(best)) best = k;
+    }
+    return best;
+}
+
+std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::vector<int>& mesh_of,
+                              int parts) {
+    std::vector<std::vector<int>> meshes(static_cast<std::size_t>(parts));
+    for (std::size_t i = 0; i < mesh_of.size(); ++i) {
+        meshes[static_cast<std::size_t>(part_of_patch[i])].push_back(mesh_of[i]);
+    }
+    std::vector<int> counts;
+    for (std::vector<int>& of_part : meshes) {
+        std::sort(of_part.begin(), of_part.end());
+        counts.push_back(static_cast<int>(std::unique(of_part.begin(), of_part.end()) - of_part.begin()));
+    }
+    return counts;
+}
+
+void describe_parts(const CutInput& input, int parts, CutResult& result) {
+    result.part_share = mean_area_shares(result.part_of_patch, parts, input.patch_area, input.mesh_of);
+    result.meshes_with_part = count_meshes(result.part_of_patch, input.mesh_of, parts);
+}
+
+}  // namespace
+
+std::vector<CutStart> pooled_starts(int parts) {
+    std::vector<int> clusters = {parts, parts + 1, parts + 2, 2 * parts, 3 * parts};
+    std::sort(clusters.begin(), clusters.end());
+    clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
+    std::vector<CutStart> starts;
+    for (const double weight : {1.0, 2.0, 4.0, 8.0}) {
+        const GraphWeights graph{weight, weight};
+        for (const int count : clusters) starts.push_back({graph, count, graph, MergeRule::normalized_cut});
+    }
+    return starts;
+}
+
+std::vector<CutStart> articulated_starts(int parts) {
+    const GraphWeights without_adjacency{0.0, 1.0};
+    std::vector<CutStart> starts;
+    for (const int clusters : {2 * parts, 3 * parts}) {
+        starts.push_back({without_adjacency, clusters, {0.0, 0.0}, MergeRule::affinity});
+        starts.push_back({without_adjacency, clusters, {0.0, 0.0}, MergeRule::alternation});
+        starts.push_back({without_adjacency, clusters, {1.0, 1.0}, MergeRule::normalized_cut});
+    }
+    return starts;
+}
+
+std::vector<CutStart> single_start(int parts, double adjacency) {
+    const GraphWeights graph{adjacency, adjacency};
+    return {{graph, parts, graph, MergeRule::normalized_cut}};
+}
+
+CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const CutOptions& options) {
+    refuse_bad_request(comm, input, options);
+    CutResult result;
+    if (options.parts == 1) {
+        result.part_of_patch.assign(input.mesh_of.size(), 0);
+        describe_parts(input, 1, result);
+        return result;
+    }
+    const Comm self(MPI_COMM_SELF);
+    const bool one_rank = static_cast<std::int64_t>(input.mesh_of.size()) <= options.one_rank_patches;
+    const CutTerms terms = cut_terms(comm, self, one_rank, input, options);
+    std::vector<LabelledOutcome> outcomes =
+        one_rank ? run_dealt(comm, self, input, options, terms) : run_together(comm, input, options, terms);
+    result.chosen = static_cast<int>(choose(outcomes, options.choice));
+    result.part_of_patch = outcomes[static_cast<std::size_t>(result.chosen)].labels;
+    for (LabelledOutcome& r : outcomes) result.starts.push_back(std::move(r.outcome));
+    describe_parts(input, options.parts, result);
+    return result;
+}
+
+}  // namespace coseg

@@ -1,0 +1,102 @@
+#pragma once
+// From coefficients to parts: affinity, cuts from several starts, and the choice among them.
+
+#include <cstdint>
+#include <vector>
+
+#include "solvers/cluster_merging.hpp"
+#include "solvers/coefficients.hpp"
+#include "solvers/partition_choice.hpp"
+#include "solvers/patch_links.hpp"
+#include "solvers/spectral_embedding.hpp"
+#include "src/comm.hpp"
+
+namespace coseg {
+
+/// What the coefficients become.
+enum class AffinityForm {
+    paper,  ///< equation (8)
+    links,  ///< every patch's own links sum to 1, see normalized_links; deviates
+};
+
+/// The graph S = base + adjacency A' + overlap O', with A' and O' of affinity.hpp scaled to the total of the
+/// base.
+struct GraphWeights {
+    double adjacency = 0.0;
+    double overlap = 0.0;
+    friend bool operator==(const GraphWeights&, const GraphWeights&) = default;
+};
+
+/// One attempt: the graph `cut` is cut into `clusters`, these are merged into the parts by `rule` in the
+/// graph `merging`.
+struct CutStart {
+    GraphWeights cut;
+    int clusters = 2;
+    GraphWeights merging;
+    MergeRule rule = MergeRule::normalized_cut;
+};
+
+/// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 3K}, merged by the normalised cut of
+/// the same graph.
+std::vector<CutStart> pooled_starts(int parts);
+
+/// Cuts without adjacency (overlap 1) into 2K and 3K clusters, merged by affinity and by alternation in the
+/// base alone and by the normalised cut with some adjacency: for shapes with many limbs, where adjacency in
+/// the cut does harm.
+std::vector<CutStart> articulated_starts(int parts);
+
+/// One cut into the parts, adjacency = overlap; 0 with AffinityForm::paper is the paper's text.
+std::vector<CutStart> single_start(int parts, double adjacency);
+
+struct CutInput {
+    const SparseCoefficients& coefficients;              ///< columns owned by this rank
+    const std::vector<PatchRelation>& neighbors_local;   ///< of the meshes that this rank works on
+    const std::vector<OverlapRelation>& overlaps_local;  ///< likewise; none with one over-segmentation a mesh
+    const std::vector<int>& mesh_of;        ///< mesh 0 .. M-1 of all patches, the same on all ranks
+    const std::vector<double>& patch_area;  ///< of all patches, the same on all ranks
+};
+
+struct CutOptions {
+    int parts = 2;  ///< K, 1 .. number of patches
+    AffinityForm form = AffinityForm::links;
+    bool minima_rule = true;       ///< on the base, as the paper prints it
+    double drop_below = 0.0;       ///< entries of S below are dropped; the paper's code: 1e-6
+    SpectralOptions spectral;      ///< the paper's code: offset 0.5
+    std::vector<CutStart> starts;  ///< at least one
+    double score_weight = 1.5;     ///< adjacency and overlap of the graph that scores
+    ChoiceWeights choice;
+    std::int64_t one_rank_patches = 20000;  ///< up to so many patches a start is one rank's work
+};
+
+/// What came of a start.
+struct StartOutcome {
+    CutStart start;
+    PartitionTerms terms;
+    double score = 0.0;
+    int parts_found = 0;  ///< parts with a patch; fewer than asked for where clusters came out empty
+    int set_aside = 0;    ///< patches that took no part in the cut and followed their neighbours
+    int unreached = 0;    ///< of these: without any labelled neighbour, given to the largest cluster
+    std::vector<double> eigenvalues;  ///< of the start's graph, descending, as many as `clusters`
+};
+
+struct CutResult {
+    std::vector<int> part_of_patch;  ///< 0 .. parts - 1, by decreasing mean area share; the same on all ranks
+    std::vector<double> part_share;  ///< mean over meshes of the part's share of area
+    std::vector<int> meshes_with_part;  ///< in how many meshes the part occurs; few is a warning sign
+    std::vector<StartOutcome> starts;   ///< in the order of CutOptions::starts
+    int chosen = 0;  ///< the start taken: best score among those with the most parts; ties: the first
+};
+
+/// Cuts the patches of all meshes into parts.
+///
+/// Up to one_rank_patches the affinity is gathered on every rank, the different graphs are dealt over the
+/// ranks and each is cut by one rank alone, so that the result has the same bytes on any number of ranks.
+/// Above, all ranks share each eigenvalue problem; labels may then differ between rank counts where patches
+/// lie within rounding of a boundary.
+///
+/// Collective. Throws AgreedError: usage (parts out of range), input (nothing to cut), not_converged,
+/// internal. Source: the paper, equation (8), minima rule and normalised cut; Deviates: `links`, adjacency,
+/// overlaps, several starts and their choice.
+CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const CutOptions& options);
+
+}  // namespace coseg

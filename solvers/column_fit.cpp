@@ -1,0 +1,98 @@
+#include "solvers/column_fit.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace coseg {
+
+namespace {
+
+/// Above this many pairs a column's Gram matrices take more memory, and in time as much, as products with X.
+constexpr std::size_t largest_gram = 160;
+
+/// Four accumulators in a fixed order: fast without leave to reorder, and the same bits at any alignment.
+double inner(const double* x, const double* y, int n) noexcept {
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    int k = 0;
+    for (; k + 4 <= n; k += 4) {
+        for (int l = 0; l < 4; ++l) sum[l] += x[k + l] * y[k + l];
+    }
+    for (; k < n; ++k) sum[0] += x[k] * y[k];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+const double* column_of(const FeatureStack& stack, int i) {
+    return stack.columns.data() + static_cast<std::int64_t>(i) * stack.dimension;
+}
+
+}  // namespace
+
+void feature_products(const FeatureStack& stack, int row, const double* y, double* products) {
+    const double* x = column_of(stack, row);
+    for (std::size_t h = 0; h < static_cast<std::size_t>(stack.features); ++h) {
+        const int begin = stack.offset[h];
+        products[h] = inner(x + begin, y + begin, stack.offset[h + 1] - begin);
+    }
+}
+
+void prepare_column_fit(const FeatureStack& stack, int column, ColumnFit& fit) {
+    const auto features = static_cast<std::size_t>(stack.features);
+    const std::size_t pairs = fit.rows.size();
+    fit.linear.resize(pairs * features);
+    for (std::size_t p = 0; p < pairs; ++p) {
+        feature_products(stack, fit.rows[p], column_of(stack, column), fit.linear.data() + p * features);
+    }
+    fit.gram.clear();
+    fit.gram.shrink_to_fit();
+    if (pairs > largest_gram) return;
+    fit.gram.resize(pairs * (pairs + 1) / 2 * features);
+    double* gram = fit.gram.data();
+    for (std::size_t p = 0; p < pairs; ++p) {
+        for (std::size_t q = 0; q <= p; ++q, gram += features) {
+            feature_products(stack, fit.rows[p], column_of(stack, fit.rows[q]), gram);
+        }
+    }
+}
+
+void reconstruct(const FeatureStack& stack, const ColumnFit& fit, const double* weights,
+                 double* reconstruction) {
+    std::fill_n(reconstruction, stack.dimension, 0.0);
+    const auto features = static_cast<std::size_t>(stack.features);
+    for (std::size_t p = 0; p < fit.rows.size(); ++p) {
+        const double* x = column_of(stack, fit.rows[p]);
+        for (std::size_t h = 0; h < features; ++h) {
+            const double weight = weights[p * features + h];
+            if (weight == 0.0) continue;
+            for (int k = stack.offset[h]; k < stack.offset[h + 1]; ++k) reconstruction[k] += weight * x[k];
+        }
+    }
+}
+
+void apply_gram(const FeatureStack& stack, const ColumnFit& fit, const double* weights, double* product) {
+    const auto features = static_cast<std::size_t>(stack.features);
+    const std::size_t pairs = fit.rows.size();
+    if (fit.gram.empty()) {
+        std::vector<double> reconstruction(static_cast<std::size_t>(stack.dimension));
+        reconstruct(stack, fit, weights, reconstruction.data());
+        for (std::size_t p = 0; p < pairs; ++p) {
+            feature_products(stack, fit.rows[p], reconstruction.data(), product + p * features);
+        }
+        return;
+    }
+    std::fill_n(product, pairs * features, 0.0);
+    const double* gram = fit.gram.data();
+    for (std::size_t p = 0; p < pairs; ++p) {
+        double* product_p = product + p * features;
+        const double* weights_p = weights + p * features;
+        for (std::size_t q = 0; q < p; ++q, gram += features) {
+            for (std::size_t h = 0; h < features; ++h) {
+                product_p[h] += gram[h] * weights[q * features + h];
+                product[q * features + h] += gram[h] * weights_p[h];
+            }
+        }
+        for (std::size_t h = 0; h < features; ++h) product_p[h] += gram[h] * weights_p[h];
+        gram += features;
+    }
+}
+
+}  // namespace coseg

@@ -1,0 +1,37 @@
+#pragma once
+// The H features of every patch stacked into one column each, as the solvers read them.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solvers/subspace_problem.hpp"
+
+namespace coseg {
+
+struct FeatureStack {
+    int features = 0;            ///< H
+    int size = 0;                ///< N
+    int dimension = 0;           ///< D = sum of d_h
+    std::vector<int> offset;     ///< H + 1: feature h is the rows offset[h] .. offset[h + 1]
+    Eigen::MatrixXd columns;     ///< D x N, column major
+    Eigen::MatrixXd norm;        ///< H x N: 2-norms, rounded up
+    Eigen::MatrixXd entry_sum;   ///< H x N: sums of entries, rounded down; > 0
+    double squared_norm = 0.0;   ///< sum_h ||X_h||_F^2, the objective at W = 0
+    double largest_inner = 0.0;  ///< largest squared norm of a column of a feature
+
+    [[nodiscard]] int rows_of(int h) const noexcept {
+        return offset[static_cast<std::size_t>(h) + 1] - offset[static_cast<std::size_t>(h)];
+    }
+    [[nodiscard]] const double* feature(int h) const noexcept {
+        return columns.data() + offset[static_cast<std::size_t>(h)];
+    }
+    /// An upper bound of |computed - exact| / (||x|| ||y||) for an inner product of dimension D in double.
+    [[nodiscard]] double inner_product_error() const noexcept;
+};
+
+/// Column `order[i]` of the problem becomes column i; an empty order keeps the problem's.
+FeatureStack stack_features(const SubspaceProblem& problem, std::span<const int> order = {});
+
+}  // namespace coseg

@@ -1,0 +1,314 @@
+#include "solvers/mesh_scope_solver.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "solvers/column_model.hpp"
+#include "solvers/exact_sum.hpp"
+#include "solvers/mesh_scope_pass.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// Decreases below this share of ||x_j||^2 are rounding.
+constexpr double negligible = 1e-15;
+
+enum class ColumnState { open, gap_reached, rounding_reached, limit_reached };
+
+/// A column on its way: its working set, its point and both ends of its gap.
+struct Column {
+    WorkingColumn working;
+    std::vector<int> groups;             ///< group of each run of working.group_begin
+    std::vector<double> reconstruction;  ///< X w
+    std::vector<double> group_sums;      ///< per group of rows
+    double decrease = 0.0;               ///< objective at 0 minus objective
+    double largest_decrease = 0.0;       ///< no W reaches more
+    double squared_norm = 0.0;
+    double residual = 0.0;
+    double inner_gap = 0.0;  ///< asked of the working set's problem, relative to its decrease
+    int iterations = 0;
+    ColumnState state = ColumnState::open;
+};
+
+struct Totals {
+    int iterations = 0;
+    int passes = 0;
+    std::int64_t working_pairs = 0;
+    bool limited = false;
+    bool timed_out = false;
+    bool rounding = false;
+    double residual = 0.0;
+};
+
+class MeshScopeSolver {
+  public:
+    MeshScopeSolver(const SubspaceProblem& problem, const SolveOptions& options)
+        : options_(options),
+          penalties_{problem.alpha, problem.beta, problem.lambda},
+          meshes_(sort_by_mesh(problem.mesh_of)),
+          stack_(stack_features(problem, meshes_.order)),
+          pass_(stack_, meshes_, penalties_),
+          allowed_meshes_(problem.allowed_meshes),
+          start_(MPI_Wtime()) {}
+
+    /// The columns [begin, end) of the problem, each solved; a function of these columns alone.
+    std::vector<Column> solve_tile(std::int64_t begin, std::int64_t end);
+
+    [[nodiscard]] const Totals& totals() const noexcept { return totals_; }
+    [[nodiscard]] const FeatureStack& stack() const noexcept { return stack_; }
+    [[nodiscard]] int patch(int place) const { return meshes_.order[static_cast<std::size_t>(place)]; }
+
+  private:
+    [[nodiscard]] Column start_column(std::int64_t patch) const;
+    [[nodiscard]] std::vector<int> allowed_groups(int mesh) const;
+    [[nodiscard]] bool out_of_time() const { return MPI_Wtime() - start_ >= options_.max_seconds; }
+    int solve_batch(std::span<Column*> batch, const std::vector<int>& allowed);
+    void judge(Column& column, const ColumnVerdict& verdict) const;
+    bool add_violators(Column& column, const ColumnVerdict& verdict) const;
+    void solve_working_set(Column& column);
+
+    const SolveOptions& options_;
+    ColumnPenalties penalties_;
+    MeshOrder meshes_;
+    FeatureStack stack_;
+    MeshScopePass pass_;
+    const std::vector<std::vector<int>>& allowed_meshes_;
+    double start_;
+    Totals totals_;
+};
+
+Column MeshScopeSolver::start_column(std::int64_t patch) const {
+    Column column;
+    column.working.column = meshes_.place[static_cast<std::size_t>(patch)];
+    column.working.group_begin = {0};
+    column.reconstruction.assign(static_cast<std::size_t>(stack_.dimension), 0.0);
+    column.group_sums.assign(meshes_.group_mesh.size(), 0.0);
+    for (int k = 0; k < stack_.dimension; ++k) {
+        const double x = stack_.columns(k, column.working.column);
+        column.squared_norm += x * x;
+    }
+    column.largest_decrease = column.squared_norm;
+    column.inner_gap = 0.3 * options_.gap;
+    return column;
+}
+
+std::vector<int> MeshScopeSolver::allowed_groups(int mesh) const {
+    std::vector<int> groups;
+    for (std::size_t g = 0; g < meshes_.group_mesh.size(); ++g) {
+        const int other = meshes_.group_mesh[g];
+        const bool all = allowed_meshes_.empty();
+        if (all || (other != mesh &&
+                    std::ranges::binary_search(allowed_meshes_[static_cast<std::size_t>(mesh)], other))) {
+            groups.push_back(static_cast<int>(g));
+        }
+    }
+    return groups;
+}
+
+std::vector<Column> MeshScopeSolver::solve_tile(std::int64_t begin, std::int64_t end) {
+    std::vector<Column> columns;
+    for (std::int64_t j = begin; j < end; ++j) columns.push_back(start_column(j));
+    const auto mesh_of = [&](const Column* column) {
+        const int group = meshes_.group_of[static_cast<std::size_t>(column->working.column)];
+        return meshes_.group_mesh[static_cast<std::size_t>(group)];
+    };
+    std::vector<Column*> order;
+    for (Column& column : columns) order.push_back(&column);
+    // Columns of one mesh see the same rows; where all rows are allowed, those of all meshes do.
+    const bool together = allowed_meshes_.empty();
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const Column* a, const Column* b) { return mesh_of(a) < mesh_of(b); });
+    int passes = 0;
+    for (std::size_t first = 0; first < order.size();) {
+        std::size_t last = first + 1;
+        while (last < order.size() && (together || mesh_of(order[last]) == mesh_of(order[first]))) ++last;
+        passes = std::max(passes, solve_batch(std::span(order).subspan(first, last - first),
+                                              allowed_groups(mesh_of(order[first]))));
+        first = last;
+    }
+    totals_.passes = std::max(totals_.passes, passes);
+    for (const Column& column : columns) {
+        totals_.iterations = std::max(totals_.iterations, column.iterations);
+        totals_.working_pairs += static_cast<std::int64_t>(column.working.rows.size());
+        totals_.residual = std::max(totals_.residual, column.residual);
+        totals_.rounding = totals_.rounding || column.state == ColumnState::rounding_reached;
+        totals_.limited = totals_.limited || column.state == ColumnState::limit_reached;
+    }
+    return columns;
+}
+
+/// Pass, add, solve, until every column has its gap. Returns the number of passes.
+int MeshScopeSolver::solve_batch(std::span<Column*> batch, const std::vector<int>& allowed) {
+    int passes = 0;
+    std::vector<Column*> open(batch.begin(), batch.end());
+    bool exact = false;  // single precision has nothing to add any more: the next pass is in double
+    while (!open.empty()) {
+        std::vector<PassColumn> seen;
+        for (const Column* column : open) {
+            seen.push_back({&column->working, column->reconstruction.data(), column->group_sums});
+        }
+        const std::vector<ColumnVerdict> verdicts =
+            exact ? pass_.double_precision(seen, allowed) : pass_.single_precision(seen, allowed);
+        ++passes;
+        bool any_added = false;
+        for (std::size_t c = 0; c < open.size(); ++c) {
+            Column& column = *open[c];
+            judge(column, verdicts[c]);
+            if (column.state != ColumnState::open) continue;
+            const bool added = add_violators(column, verdicts[c]);
+            any_added = any_added || added;
+            if (!added && exact) {
+                column.inner_gap *= 0.1;
+                if (column.inner_gap < negligible) column.state = ColumnState::rounding_reached;
+            }
+            if (added || exact) solve_working_set(column);
+        }
+        exact = !any_added;
+        if (out_of_time()) {
+            totals_.timed_out = true;
+            for (Column* column : open) {
+                if (column->state == ColumnState::open) column->state = ColumnState::limit_reached;
+            }
+        }
+        std::erase_if(open, [](const Column* column) { return column->state != ColumnState::open; });
+    }
+    return passes;
+}
+
+void MeshScopeSolver::judge(Column& column, const ColumnVerdict& verdict) const {
+    column.largest_decrease = std::min(column.largest_decrease, verdict.largest_decrease);
+    const double gap = column.largest_decrease - column.decrease;
+    if (gap <= std::max(options_.gap * column.decrease, negligible * column.squared_norm)) {
+        column.state = ColumnState::gap_reached;
+    }
+}
+
+/// Adds the leaders that optimality does not allow to stay at zero; false if there are none.
+bool MeshScopeSolver::add_violators(Column& column, const ColumnVerdict& verdict) const {
+    std::vector<int> rows;
+    for (std::size_t g = 0; g < verdict.leaders.size(); ++g) {
+        const double limit = penalties_.alpha + 2.0 * penalties_.lambda * column.group_sums[g];
+        for (int l = 0; l < 2; ++l) {
+            if (verdict.leaders[g].row[l] >= 0 && verdict.leaders[g].norm[l] > limit)
+                rows.push_back(verdict.leaders[g].row[l]);
+        }
+    }
+    if (rows.empty()) return false;
+    const auto features = static_cast<std::size_t>(stack_.features);
+    WorkingColumn& working = column.working;
+    const std::vector<int> old_rows = std::move(working.rows);
+    const std::vector<double> old_weights = std::move(working.weights);
+    rows.insert(rows.end(), old_rows.begin(), old_rows.end());
+    std::sort(rows.begin(), rows.end());
+    working.weights.assign(rows.size() * features, 0.0);
+    working.group_begin.clear();
+    column.groups.clear();
+    std::size_t old = 0;
+    for (std::size_t p = 0; p < rows.size(); ++p) {
+        const int group = meshes_.group_of[static_cast<std::size_t>(rows[p])];
+        if (column.groups.empty() || column.groups.back() != group) {
+            column.groups.push_back(group);
+            working.group_begin.push_back(static_cast<int>(p));
+        }
+        if (old < old_rows.size() && old_rows[old] == rows[p]) {
+            std::copy_n(old_weights.begin() + static_cast<std::ptrdiff_t>(old * features), features,
+                        working.weights.begin() + static_cast<std::ptrdiff_t>(p * features));
+            ++old;
+        }
+    }
+    working.group_begin.push_back(static_cast<int>(rows.size()));
+    working.rows = std::move(rows);
+    return true;
+}
+
+void MeshScopeSolver::solve_working_set(Column& column) {
+    ColumnModel model(stack_, penalties_, column.working);
+    const auto stop = [&](const SpectralProgress& progress) {
+        ++column.iterations;
+        column.residual = progress.residual / (2.0 * stack_.largest_inner);
+        const double gap = model.largest_decrease() + model.objective();
+        const double target =
+            std::max(-column.inner_gap * model.objective(), 0.1 * negligible * column.squared_norm);
+        if (column.iterations >= options_.max_iterations) column.state = ColumnState::limit_reached;
+        return gap <= target || progress.residual == 0.0 || column.state == ColumnState::limit_reached;
+    };
+    spectral_projected_gradient(model, model.first_step(), stop);
+    column.decrease = -model.objective();
+    column.reconstruction = model.reconstruction();
+    for (std::size_t g = 0; g < column.groups.size(); ++g) {
+        column.group_sums[static_cast<std::size_t>(column.groups[g])] = model.group_sums()[g];
+    }
+}
+
+/// Appends the column's nonzero pairs, rows back in the problem's order.
+void append_column(const MeshScopeSolver& solver, const Column& column, SparseCoefficients& sparse) {
+    const auto features = static_cast<std::size_t>(sparse.features);
+    std::vector<std::pair<int, std::size_t>> entries;
+    for (std::size_t p = 0; p < column.working.rows.size(); ++p) {
+        const auto begin = column.working.weights.begin() + static_cast<std::ptrdiff_t>(p * features);
+        const bool positive = std::any_of(begin, begin + static_cast<std::ptrdiff_t>(features),
+                                          [](double w) { return w > 0.0; });
+        if (positive) entries.emplace_back(solver.patch(column.working.rows[p]), p);
+    }
+    std::sort(entries.begin(), entries.end());
+    for (const auto& [row, p] : entries) {
+        sparse.rows.push_back(row);
+        const auto begin = column.working.weights.begin() + static_cast<std::ptrdiff_t>(p * features);
+        sparse.values.insert(sparse.values.end(), begin, begin + static_cast<std::ptrdiff_t>(features));
+    }
+    sparse.offsets.push_back(static_cast<std::int64_t>(sparse.rows.size()));
+}
+
+void finish_result(const Comm& comm, const Totals& totals, const FeatureStack& stack, double gap,
+                   ExactSum& sums, SolveResult& result) {
+    sums.reduce(comm);
+    const double decrease = sums.scalar(0);
+    const double largest_decrease = sums.scalar(1) * (1.0 + 1e-15);
+    result.objective_at_zero = stack.squared_norm;
+    result.objective = stack.squared_norm - decrease;
+    result.lower_bound =
+        std::max(0.0, stack.squared_norm * (1.0 - stack.inner_product_error()) - largest_decrease);
+    const double width = std::max(largest_decrease - decrease, 0.0);
+    const bool rounding_only = width <= 1e-14 * stack.squared_norm;
+    result.relative_gap = decrease > 0.0 ? width / decrease : (rounding_only ? 0.0 : 1.0);
+    result.kkt_residual = all_max(comm, totals.residual);
+    result.iterations = static_cast<int>(all_max(comm, totals.iterations));
+    result.passes = static_cast<int>(all_max(comm, totals.passes));
+    result.working_pairs = all_sum(comm, totals.working_pairs);
+    result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
+    const bool timed_out = all_max(comm, totals.timed_out ? 1.0 : 0.0) > 0.0;
+    const bool limited = all_max(comm, totals.limited ? 1.0 : 0.0) > 0.0;
+    if (result.relative_gap <= gap) {
+        result.reason = StopReason::gap_reached;
+    } else if (limited) {
+        result.reason = timed_out ? StopReason::time_limit : StopReason::iteration_limit;
+    } else {
+        result.reason = StopReason::residual_reached;
+    }
+}
+
+}  // namespace
+
+SolveResult solve_mesh_scope(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options) {
+    MeshScopeSolver solver(problem, options);
+    SolveResult result;
+    const BlockRange owned = block_range(problem.size(), comm.size(), comm.rank(), coefficient_tile);
+    result.coefficients = {problem.size(), owned, problem.feature_count(), {0}, {}, {}};
+    ExactSum sums(0, 1.0, 2);
+    for (std::int64_t begin = owned.begin; begin < owned.end; begin += coefficient_tile) {
+        for (const Column& column : solver.solve_tile(begin, std::min(begin + coefficient_tile, owned.end))) {
+            sums.add_scalar(0, column.decrease);
+            sums.add_scalar(1, column.largest_decrease);
+            append_column(solver, column, result.coefficients);
+        }
+    }
+    finish_result(comm, solver.totals(), solver.stack(), options.gap, sums, result);
+    return result;
+}
+
+}  // namespace coseg

@@ -1,0 +1,40 @@
+#pragma once
+// PETSc and SLEPc between their initialisation and their end.
+
+#include <string>
+#include <vector>
+
+namespace coseg {
+
+/// Initialises SLEPc, PETSc and, unless the program did, MPI; ends them in reverse order. One per process.
+/// PETSc's signal handlers and its printing of errors are off: errors reach the user through check() alone.
+/// BLAS is held to one thread per rank, so that results do not depend on how many cores a rank may see.
+/// Files that PETSc reads by itself (~/.petscrc) are ignored. Collective over MPI_COMM_WORLD.
+class PetscSession {
+  public:
+    /// `arguments`: what the user gave for PETSc and SLEPc, e.g. {"-eps_ncv", "80"}. Throws Error(usage)
+    /// where unknown_petsc_option finds one, Error(internal) if the libraries do not start.
+    explicit PetscSession(const std::vector<std::string>& arguments);
+    /// Does nothing while an exception is under way: a rank that unwinds alone must not enter a collective
+    /// call.
+    ~PetscSession();
+    PetscSession(const PetscSession&) = delete;
+    PetscSession& operator=(const PetscSession&) = delete;
+
+  private:
+    std::vector<std::string> words_;  // PETSc keeps pointers into its command line
+    std::vector<char*> pointers_;
+};
+
+/// The first of `arguments` that cannot be an option of the solvers in use, or "" if there is none: options
+/// start with one of the prefixes of PETSc's and SLEPc's classes (-eps_, -st_, -bv_, -ds_, -mat_, -vec_,
+/// -log_ ...), a value follows an option. Finds what is wrong before the run; unused_petsc_options finds what
+/// is misspelt after it.
+std::string unknown_petsc_option(const std::vector<std::string>& arguments);
+
+/// Options that were set but that no solver asked for, each as "-name" or "-name value": misspelt, most
+/// likely. At the end of a run, before the session ends, it knows of all; of the eigensolver's (-eps_) at any
+/// time. The session's own options are not reported. Throws Error(usage) if the eigensolver refuses a value.
+std::vector<std::string> unused_petsc_options();
+
+}  // namespace coseg

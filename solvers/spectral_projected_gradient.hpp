@@ -1,0 +1,104 @@
+#pragma once
+// Spectral projected gradient with a prox in place of the projection, written once for all storages of W.
+//
+// Source: Birgin, Martinez, Raydan, "Nonmonotone spectral projected gradient methods on convex sets", SIAM J.
+//   Optim. 2000: Barzilai-Borwein step s.s / s.y, acceptance against the largest of the last 10 objectives,
+//   sufficient decrease 1e-4, step kept in [1e-30, 1e30].
+// Deviates: the objective has a part that is not smooth, so its prox replaces the projection and the step
+// itself is
+//   halved where a trial is refused; known as SpaRSA (Wright, Nowak, Figueiredo 2009). s.y needs no second
+//   gradient: the smooth part is quadratic, so it is the curvature along s.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+namespace coseg {
+
+/// What a trial point costs and how it lies to the current one.
+struct TrialPoint {
+    double objective = 0.0;  ///< smooth part and penalties; infinite if the trial cannot be used
+    double distance2 = 0.0;  ///< s.s, s = trial - current
+    double curvature = 0.0;  ///< s.y, y the change of the smooth part's gradient along s; >= 0
+};
+
+/// propose(t) makes the trial prox(W - t G, t); accept() makes it the current point and computes its
+/// gradient.
+template <class T>
+concept ProximalModel = requires(T model, const T& fixed, double step) {
+    { fixed.objective() } -> std::convertible_to<double>;
+    { model.propose(step) } -> std::same_as<TrialPoint>;
+    model.accept();
+};
+
+class SpectralStep {
+  public:
+    static constexpr double smallest = 1e-30;
+    static constexpr double largest = 1e30;
+    static constexpr double sufficient_decrease = 1e-4;
+
+    explicit SpectralStep(double first_step, double objective)
+        : step_(std::clamp(first_step, smallest, largest)) {
+        remember(objective);
+    }
+
+    [[nodiscard]] double step() const noexcept { return step_; }
+
+    [[nodiscard]] bool accepts(const TrialPoint& trial) const noexcept {
+        const double reference = *std::max_element(recent_.begin(), recent_.end());
+        // Near the optimum a decrease drowns in the objective's last bits.
+        const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(reference);
+        return trial.objective <= reference + rounding - 0.5 * sufficient_decrease * trial.distance2 / step_;
+    }
+
+    void shorten() noexcept { step_ = std::max(0.5 * step_, smallest); }
+
+    void lengthen(const TrialPoint& trial) noexcept {
+        remember(trial.objective);
+        if (trial.distance2 <= 0.0) return;
+        step_ = trial.curvature > trial.distance2 / largest
+                    ? std::clamp(trial.distance2 / trial.curvature, smallest, largest)
+                    : largest;
+    }
+
+  private:
+    void remember(double objective) noexcept {
+        recent_[count_ % recent_.size()] = objective;
+        if (count_ == 0) recent_.fill(objective);
+        ++count_;
+    }
+
+    double step_;
+    std::array<double, 10> recent_{};
+    std::size_t count_ = 0;
+};
+
+/// What the stopping test sees after each accepted step.
+struct SpectralProgress {
+    int iterations = 0;     ///< accepted steps
+    double residual = 0.0;  ///< ||W - prox(W - t G)|| / t at the step just taken
+};
+
+/// Iterates until `stop(progress)` is true.
+/// Collective where the model is; `stop` must decide the same on all ranks.
+template <ProximalModel Model, class Stop>
+SpectralProgress spectral_projected_gradient(Model& model, double first_step, Stop&& stop) {
+    SpectralStep rule(first_step, model.objective());
+    SpectralProgress progress;
+    while (true) {
+        TrialPoint trial = model.propose(rule.step());
+        while (!rule.accepts(trial) && rule.step() > SpectralStep::smallest) {
+            rule.shorten();
+            trial = model.propose(rule.step());
+        }
+        progress.residual = std::sqrt(trial.distance2) / rule.step();
+        model.accept();
+        ++progress.iterations;
+        rule.lengthen(trial);
+        if (stop(progress)) return progress;
+    }
+}
+
+}  // namespace coseg

@@ -1,0 +1,46 @@
+#pragma once
+// One interface to all solvers of the subspace problem, with a certificate of how close the answer is.
+
+#include <string>
+
+#include "solvers/coefficients.hpp"
+#include "solvers/subspace_problem.hpp"
+#include "src/comm.hpp"
+
+namespace coseg {
+
+struct SolveOptions {
+    double gap = 1e-4;            ///< stop at this relative gap; see SolveResult::relative_gap
+    int max_iterations = 200000;  ///< of the inner method; scope mesh: per column
+    double max_seconds = 3600.0;  ///< wall time
+    std::string solver = "auto";  ///< "auto", "dense" (scope paper only) or "working-set"
+};
+
+enum class StopReason { gap_reached, residual_reached, iteration_limit, time_limit };
+
+struct SolveResult {
+    SparseCoefficients coefficients;
+    double objective = 0.0;          ///< at the coefficients; an upper bound of the optimum
+    double objective_at_zero = 0.0;  ///< sum_h ||X_h||_F^2
+    double lower_bound = 0.0;        ///< of the optimum, rounding allowed for
+    /// (objective - lower_bound) / objective for scope paper, / (objective_at_zero - objective) for scope
+    /// mesh; 0 where both bounds agree to the last bits.
+    double relative_gap = 0.0;
+    double kkt_residual = 0.0;        ///< norm of (W - prox(W - t G)) / t, relative to the size of G at W = 0
+    int iterations = 0;               ///< scope mesh: of the column that took most
+    int passes = 0;                   ///< over all pairs
+    std::int64_t working_pairs = 0;   ///< pairs that the last working set held, all ranks
+    std::int64_t nonzero_groups = 0;  ///< pairs with a value > 0, all ranks
+    StopReason reason = StopReason::gap_reached;
+};
+
+/// Solves the problem to `options.gap`. The problem must be the same on every rank; the answer has the same
+/// bits on any number of ranks unless a time limit cuts it short. Throws AgreedError(input) for what
+/// validate() refuses and AgreedError(usage) for an unknown solver. A limit that is reached is no error here:
+/// see `reason`. Collective.
+SolveResult solve_subspace(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options);
+
+/// "gap_reached", "residual_reached", "iteration_limit" or "time_limit".
+std::string to_string(StopReason reason);
+
+}  // namespace coseg

@@ -1,0 +1,36 @@
+#pragma once
+// A small undirected graph with masses on its nodes and weights on its edges, and what is cut out of it.
+
+#include <vector>
+
+namespace coseg {
+
+struct WeightedEdge {
+    int node_a = -1;
+    int node_b = -1;
+    double weight = 0.0;
+};
+
+/// Both directions of every edge are stored, so that a node's neighbours are one contiguous, ascending run.
+struct WeightedGraph {
+    std::vector<double> mass;    ///< per node, > 0
+    std::vector<int> offsets;    ///< nodes + 1: node v's neighbours are neighbors[offsets[v] .. offsets[v+1])
+    std::vector<int> neighbors;  ///< ascending within a node, no loops, no repetitions
+    std::vector<double> weights;  ///< > 0, beside `neighbors`
+
+    [[nodiscard]] int node_count() const noexcept { return static_cast<int>(mass.size()); }
+};
+
+/// Parallel edges add up in the order given; loops are dropped.
+WeightedGraph weighted_graph(std::vector<double> mass, const std::vector<WeightedEdge>& edges);
+
+/// The graph between some nodes; its node k is nodes[k]. Nodes must be ascending.
+WeightedGraph induced_subgraph(const WeightedGraph& graph, const std::vector<int>& nodes);
+
+/// Every group becomes one node: masses and parallel edges add up. `group` per node, 0..groups-1.
+WeightedGraph contracted_graph(const WeightedGraph& graph, const std::vector<int>& group, int groups);
+
+/// Component number per node, 0.. by lowest node.
+std::vector<int> connected_components(const WeightedGraph& graph);
+
+}  // namespace coseg

@@ -1,0 +1,176 @@
+#include "solvers/working_set_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/coefficients.hpp"
+#include "solvers/dual_bound.hpp"
+
+namespace coseg {
+
+namespace {
+
+enum Scalar : std::size_t { fit, penalty, distance2, curvature, scalar_count };
+
+std::vector<int> all_rows(const WorkingSet& working) {
+    std::vector<int> rows;
+    for (const ColumnFit& column : working.fits)
+        rows.insert(rows.end(), column.rows.begin(), column.rows.end());
+    return rows;
+}
+
+}  // namespace
+
+std::int64_t WorkingSet::pair_count() const {
+    std::int64_t count = 0;
+    for (const ColumnFit& column : fits) count += static_cast<std::int64_t>(column.rows.size());
+    return count;
+}
+
+WorkingSetModel::WorkingSetModel(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
+                                 const WorkingSet& working, std::vector<double>& prices)
+    : comm_(comm),
+      problem_(problem),
+      stack_(stack),
+      working_(working),
+      prices_(prices),
+      offset_{0},
+      exchange_(comm, stack.size, stack.features, all_rows(working)),
+      prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
+      sums_(0, 1.0, scalar_count) {
+    for (const ColumnFit& column : working.fits) {
+        offset_.push_back(offset_.back() + column.weights.size());
+        linear_.insert(linear_.end(), column.linear.begin(), column.linear.end());
+        forward_.insert(forward_.end(), column.weights.begin(), column.weights.end());
+    }
+    current_.weights.assign(forward_.size(), 0.0);
+    current_.product.assign(forward_.size(), 0.0);
+    current_.row_sums.assign(prices.size(), 0.0);
+    trial_ = current_;
+    // The given weights become the current point as they are: a row's prox of step 0 only sums.
+    exchange_.to_rows(forward_, by_row_);
+    shrink_rows(0.0);
+    measure_columns();
+    finish_trial();
+    accept();
+}
+
+/// From forward_ to the trial's weights; the penalties are added up tile by tile of rows.
+void WorkingSetModel::shrink_rows(double step) {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    sums_.clear();
+    double tile_penalty = 0.0;
+    const std::int64_t rows = exchange_.owned_rows().size();
+    for (std::int64_t r = 0; r < rows; ++r) {
+        const std::size_t begin = exchange_.row_begin(r) * features;
+        const std::size_t end = exchange_.row_begin(r + 1) * features;
+        const std::span<double> row = std::span(by_row_).subspan(begin, end - begin);
+        const std::size_t at = static_cast<std::size_t>(r) * features;
+        if (step > 0.0) prox_.shrink(row, step, std::span(prices_).subspan(at, features));
+        std::fill_n(trial_.row_sums.begin() + static_cast<std::ptrdiff_t>(at), features, 0.0);
+        for (std::size_t p = 0; p < row.size(); p += features) {
+            double squares = 0.0;
+            for (std::size_t h = 0; h < features; ++h) {
+                trial_.row_sums[at + h] += row[p + h];
+                squares += row[p + h] * row[p + h];
+            }
+            tile_penalty += problem_.alpha * std::sqrt(squares);
+        }
+        for (std::size_t h = 0; h < features; ++h) {
+            const double sum = trial_.row_sums[at + h];
+            tile_penalty += problem_.lambda * sum * sum + problem_.beta * sum;
+        }
+        if ((r + 1) % coefficient_tile == 0 || r + 1 == rows) {
+            sums_.add_scalar(penalty, tile_penalty);
+            tile_penalty = 0.0;
+        }
+    }
+    exchange_.to_columns(by_row_, trial_.weights);
+}
+
+void WorkingSetModel::measure_columns() {
+    double tile_fit = 0.0, tile_distance2 = 0.0, tile_curvature = 0.0;
+    for (std::size_t c = 0; c < working_.fits.size(); ++c) {
+        apply_gram(stack_, working_.fits[c], trial_.weights.data() + offset_[c],
+                   trial_.product.data() + offset_[c]);
+        for (std::size_t at = offset_[c]; at < offset_[c + 1]; ++at) {
+            const double weight = trial_.weights[at];
+            const double change = weight - current_.weights[at];
+            tile_fit += weight * (trial_.product[at] - 2.0 * linear_[at]);
+            tile_distance2 += change * change;
+            tile_curvature += 2.0 * change * (trial_.product[at] - current_.product[at]);
+        }
+        if ((c + 1) % coefficient_tile == 0 || c + 1 == working_.fits.size()) {
+            sums_.add_scalar(fit, tile_fit);
+            sums_.add_scalar(distance2, tile_distance2);
+            sums_.add_scalar(curvature, tile_curvature);
+            tile_fit = tile_distance2 = tile_curvature = 0.0;
+        }
+    }
+}
+
+TrialPoint WorkingSetModel::finish_trial() {
+    sums_.reduce(comm_);
+    TrialPoint trial;
+    trial.objective = stack_.squared_norm + (sums_.scalar(fit) + sums_.scalar(penalty));
+    if (sums_.overflowed()) trial.objective = std::numeric_limits<double>::infinity();
+    trial.distance2 = sums_.scalar(distance2);
+    trial.curvature = std::max(sums_.scalar(curvature), 0.0);
+    trial_.objective = trial.objective;
+    return trial;
+}
+
+TrialPoint WorkingSetModel::propose(double step) {
+    for (std::size_t at = 0; at < forward_.size(); ++at) {
+        forward_[at] = current_.weights[at] - 2.0 * step * (current_.product[at] - linear_[at]);
+    }
+    exchange_.to_rows(forward_, by_row_);
+    shrink_rows(step);
+    measure_columns();
+    return finish_trial();
+}
+
+double WorkingSetModel::lower_bound() const {
+    const std::vector<double> sums = row_sums();
+    PaperDualBound bound(stack_, problem_.alpha, problem_.beta, problem_.lambda, sums);
+    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto dimension = static_cast<std::size_t>(stack_.dimension);
+    std::vector<double> reconstruction(dimension * static_cast<std::size_t>(coefficient_tile));
+    std::vector<double> scores(features);
+    for (std::size_t begin = 0; begin < working_.fits.size();
+         begin += static_cast<std::size_t>(coefficient_tile)) {
+        const std::size_t width = std::min<std::size_t>(coefficient_tile, working_.fits.size() - begin);
+        for (std::size_t c = 0; c < width; ++c) {
+            reconstruct(stack_, working_.fits[begin + c], current_.weights.data() + offset_[begin + c],
+                        reconstruction.data() + c * dimension);
+        }
+        bound.begin_tile(static_cast<int>(working_.columns.begin) + static_cast<int>(begin),
+                         static_cast<int>(width), reconstruction.data());
+        for (std::size_t c = 0; c < width; ++c) {
+            const std::vector<int>& rows = working_.fits[begin + c].rows;
+            for (std::size_t p = 0; p < rows.size(); ++p) {
+                const std::size_t at = offset_[begin + c] + p * features;
+                for (std::size_t h = 0; h < features; ++h) {
+                    scores[h] = 2.0 * (linear_[at + h] - current_.product[at + h]);
+                }
+                bound.check_pair(static_cast<int>(c), rows[p], scores.data(),
+                                 2.0 * stack_.inner_product_error());
+            }
+        }
+        bound.end_tile();
+    }
+    return bound.finish(comm_);
+}
+
+std::vector<double> WorkingSetModel::row_sums() const {
+    return all_gather(comm_, std::span<const double>(current_.row_sums));
+}
+
+void WorkingSetModel::store(WorkingSet& working) const {
+    for (std::size_t c = 0; c < working.fits.size(); ++c) {
+        std::copy_n(current_.weights.begin() + static_cast<std::ptrdiff_t>(offset_[c]),
+                    offset_[c + 1] - offset_[c], working.fits[c].weights.begin());
+    }
+}
+
+}  // namespace coseg

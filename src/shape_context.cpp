@@ -1,0 +1,139 @@
+#include "src/shape_context.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace coseg {
+
+namespace {
+
+constexpr int radial_edges = static_cast<int>(shape_context_radii.size());
+constexpr int angle_edges = shape_context_angles - 1;
+
+/// Centroids and reversed normals of the samples, one array a coordinate, so that loops over samples
+/// vectorise.
+struct SamplePoints {
+    Eigen::MatrixX3f centroid;
+    Eigen::MatrixX3f inward;
+};
+
+SamplePoints sample_points(const GeodesicTable& table, const FaceGeometry& geometry) {
+    const auto samples = static_cast<Eigen::Index>(table.sample_face.size());
+    SamplePoints points{Eigen::MatrixX3f(samples, 3), Eigen::MatrixX3f(samples, 3)};
+    for (Eigen::Index k = 0; k < samples; ++k) {
+        const int face = table.sample_face[static_cast<std::size_t>(k)];
+        points.centroid.row(k) = geometry.centroid.col(face).transpose().cast<float>();
+        points.inward.row(k) = -geometry.normal.col(face).transpose().cast<float>();
+    }
+    return points;
+}
+
+/// Infinite where the mesh has no extent, so that everything falls into the innermost bin.
+std::array<float, radial_edges> radial_thresholds(const GeodesicTable& table) {
+    const float largest = table.distance.size() > 0 ? table.distance.maxCoeff() : 0.0F;
+    std::array<float, radial_edges> thresholds{};
+    for (std::size_t b = 0; b < thresholds.size(); ++b) {
+        thresholds[b] = largest > 0.0F ? static_cast<float>(shape_context_radii[b]) * largest
+                                       : std::numeric_limits<float>::infinity();
+    }
+    return thresholds;
+}
+
+/// Cosines at the inner edges, descending; the bin of an angle is the number of edges above its cosine.
+std::array<float, angle_edges> cosine_thresholds() {
+    constexpr double in_plane = 1e-4;
+    std::array<float, angle_edges> thresholds{};
+    for (int b = 1; b <= angle_edges; ++b) {
+        const bool is_middle = 2 * b == shape_context_angles;
+        const double cosine = std::cos(std::numbers::pi * b / shape_context_angles);
+        thresholds[static_cast<std::size_t>(b - 1)] = static_cast<float>(is_middle ? -in_plane : cosine);
+    }
+    return thresholds;
+}
+
+/// Cosine times length, and length, of c_k - c_i against the chosen inward normal.
+template <ShapeContextNormal reference>
+void project_samples(const SamplePoints& points, const Eigen::Vector3f& centre, const Eigen::Vector3f& inward,
+                     float* along, float* length) {
+    const Eigen::Index samples = points.centroid.rows();
+    const float* px = points.centroid.data();
+    const float* py = px + samples;
+    const float* pz = py + samples;
+    const float* nx = points.inward.data();
+    const float* ny = nx + samples;
+    const float* nz = ny + samples;
+    for (Eigen::Index k = 0; k < samples; ++k) {
+        const float x = px[k] - centre[0];
+        const float y = py[k] - centre[1];
+        const float z = pz[k] - centre[2];
+        // Never 0, so that a sample at the centre has a cosine of 0 rather than none.
+        length[k] = std::sqrt(x * x + y * y + z * z + 1e-30F);
+        if constexpr (reference == ShapeContextNormal::face) {
+            along[k] = x * inward[0] + y * inward[1] + z * inward[2];
+        } else {
+            along[k] = x * nx[k] + y * ny[k] + z * nz[k];
+        }
+    }
+}
+
+struct Thresholds {
+    std::array<float, radial_edges> radial;
+    std::array<float, angle_edges> cosine;
+};
+
+void bins_of_samples(const Thresholds& thresholds, const float* distance, const float* along,
+                     const float* length, Eigen::Index samples, int* bin) {
+    for (Eigen::Index k = 0; k < samples; ++k) {
+        int radial = 0;
+        for (const float edge : thresholds.radial) radial += distance[k] >= edge ? 1 : 0;
+        int angle = 0;
+        for (const float edge : thresholds.cosine) angle += along[k] < edge * length[k] ? 1 : 0;
+        bin[k] = radial * shape_context_angles + angle;
+    }
+}
+
+template <ShapeContextNormal reference>
+Eigen::MatrixXf contexts(const GeodesicTable& table, const FaceGeometry& geometry) {
+    const Eigen::Index samples = table.distance.rows();
+    const SamplePoints points = sample_points(table, geometry);
+    const Thresholds thresholds{radial_thresholds(table), cosine_thresholds()};
+    Eigen::VectorXf along(samples);
+    Eigen::VectorXf length(samples);
+    Eigen::VectorXi bin(samples);
+    Eigen::MatrixXf context(shape_context_bins, table.distance.cols());
+    for (Eigen::Index f = 0; f < context.cols(); ++f) {
+        project_samples<reference>(points, geometry.centroid.col(f).cast<float>(),
+                                   -geometry.normal.col(f).cast<float>(), along.data(), length.data());
+        bins_of_samples(thresholds, table.distance.data() + f * samples, along.data(), length.data(), samples,
+                        bin.data());
+        std::array<double, shape_context_bins> mass{};
+        for (Eigen::Index k = 0; k < samples; ++k)
+            mass[static_cast<std::size_t>(bin[k])] += table.sample_weight[k];
+        for (std::size_t b = 0; b < mass.size(); ++b) {
+            context(static_cast<Eigen::Index>(b), f) = static_cast<float>(mass[b]);
+        }
+    }
+    return context;
+}
+
+}  // namespace
+
+Eigen::MatrixXf shape_context(const GeodesicTable& table, const FaceGeometry& geometry,
+                              ShapeContextNormal normal) {
+    switch (normal) {
+        case ShapeContextNormal::face:
+            return contexts<ShapeContextNormal::face>(table, geometry);
+        case ShapeContextNormal::sample:
+            return contexts<ShapeContextNormal::sample>(table, geometry);
+        case ShapeContextNormal::both:
+            break;
+    }
+    Eigen::MatrixXf stacked(2 * shape_context_bins, table.distance.cols());
+    stacked.topRows(shape_context_bins) = 0.5F * contexts<ShapeContextNormal::face>(table, geometry);
+    stacked.bottomRows(shape_context_bins) = 0.5F * contexts<ShapeContextNormal::sample>(table, geometry);
+    return stacked;
+}
+
+}  // namespace coseg

@@ -1,0 +1,33 @@
+#include "src/shared_counter.hpp"
+
+#include <exception>
+
+namespace coseg {
+
+SharedCounter::SharedCounter(const Comm& comm) {
+    const MPI_Aint bytes = comm.is_root() ? static_cast<MPI_Aint>(sizeof(std::int64_t)) : 0;
+    MPI_Win_allocate(bytes, sizeof(std::int64_t), MPI_INFO_NULL, comm.raw(), &value_, &window_);
+    if (comm.is_root()) {
+        MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, window_);
+        *value_ = 0;
+        MPI_Win_unlock(0, window_);
+    }
+    MPI_Barrier(comm.raw());
+    MPI_Win_lock_all(0, window_);
+}
+
+SharedCounter::~SharedCounter() {
+    if (std::uncaught_exceptions() > 0) return;  // freeing is collective; see Comm::~Comm
+    MPI_Win_unlock_all(window_);
+    MPI_Win_free(&window_);
+}
+
+std::int64_t SharedCounter::next() {
+    const std::int64_t one = 1;
+    std::int64_t before = 0;
+    MPI_Fetch_and_op(&one, &before, MPI_INT64_T, 0, 0, MPI_SUM, window_);
+    MPI_Win_flush(0, window_);
+    return before;
+}
+
+}  // namespace coseg

@@ -1,0 +1,70 @@
+#pragma once
+// One scoped timer a stage: one line of progress on rank 0, and a row of the report's table.
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "src/comm.hpp"
+
+namespace coseg {
+
+enum class Verbosity { quiet, normal };
+
+struct StepTime {
+    std::string step;
+    double seconds = 0.0;  ///< sum over ranks
+};
+
+struct StageTimes {
+    std::string stage;
+    double seconds_min = 0.0;  ///< the shortest time any rank worked on the stage, waiting left out
+    double seconds_mean = 0.0;
+    double seconds_max = 0.0;
+    double seconds_wall = 0.0;    ///< from the first line of the stage to its agreed end, waiting included
+    std::vector<StepTime> steps;  ///< where the stage says so: what its work was spent on
+};
+
+/// Lines go to standard error, so that standard output holds results only.
+class StageLog {
+  public:
+    StageLog(const Comm& comm, Verbosity verbosity);
+
+    void begin(const std::string& stage);
+
+    /// The share done, for a bar; shown on rank 0 where standard error is a terminal. Not collective.
+    void progress(std::int64_t done, std::int64_t total);
+
+    /// Ends this rank's own work in the stage: what follows until end() is waiting. Not collective.
+    void end_of_own_work();
+
+    /// Says how long this rank spent on a step of the stage. Not collective, but every rank must name the same
+    /// steps in the same order before end().
+    void step(const std::string& name, double seconds);
+
+    /// Collective: closes the stage and prints its line, `summary` being what rank 0 says of the result.
+    void end(const std::string& summary);
+
+    /// Prints a sentence on rank 0 once, whatever rank says it first. Not collective; root only speaks.
+    void warn(const std::string& sentence) const;
+
+    [[nodiscard]] const std::vector<StageTimes>& stages() const noexcept { return stages_; }
+    [[nodiscard]] double seconds_since_start() const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void clear_bar();
+
+    const Comm& comm_;
+    Verbosity verbosity_;
+    bool is_terminal_;
+    bool bar_shown_ = false;
+    std::string stage_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point stage_start_;
+    double own_seconds_ = -1.0;
+    std::vector<StepTime> steps_;  // of this rank
+    std::vector<StageTimes> stages_;
+};
+
+}  // namespace coseg

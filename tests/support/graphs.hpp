@@ -1,0 +1,56 @@
+#pragma once
+// Graphs with known spectra and cuts, and small collections with known parts.
+
+#include <cstdint>
+#include <vector>
+
+#include "solvers/coefficients.hpp"
+#include "solvers/patch_links.hpp"
+#include "solvers/sparse_rows.hpp"
+#include "src/comm.hpp"
+
+namespace coseg::testing_graphs {
+
+struct Edge {
+    int a = 0;
+    int b = 0;
+    double weight = 1.0;
+};
+
+/// All rows of the undirected graph.
+SparseRows graph(int nodes, const std::vector<Edge>& edges);
+/// The rows that this rank owns of a matrix that every rank holds.
+SparseRows owned_rows(const Comm& comm, const SparseRows& complete);
+
+std::vector<Edge> path_edges(int nodes);
+std::vector<Edge> cycle_edges(int nodes);
+std::vector<Edge> clique_edges(int first, int nodes, double weight = 1.0);
+/// `blocks` groups of `nodes` each: random weights in [.5, 1.5] inside a group, `weak` times that between a
+/// sixteenth of the other pairs.
+std::vector<Edge> block_edges(int blocks, int nodes, double weak, std::uint64_t seed);
+
+/// The same partition up to names.
+bool same_partition(const std::vector<int>& a, const std::vector<int>& b);
+
+/// Columns of this rank: about `per_column` random pairs in each, some columns empty, a third of the values
+/// zero.
+SparseCoefficients random_coefficients(const Comm& comm, int size, int features, int per_column,
+                                       std::uint64_t seed);
+
+/// Shapes of `parts` segments in a row, each segment of `patches_per_part` patches in a row, in two
+/// over-segmentations that differ by nothing but numbers. Patches resemble those of the same segment in other
+/// shapes, and some others by accident. Concavity is high where segments meet.
+struct ToyCollection {
+    int patches = 0;
+    std::vector<int> mesh_of;
+    std::vector<int> truth;
+    std::vector<double> area;
+    std::vector<PatchRelation> neighbors;
+    std::vector<OverlapRelation> overlaps;
+    SparseCoefficients coefficients;  ///< the columns of this rank
+};
+/// Relations are those of the meshes m with m % ranks = rank.
+ToyCollection toy_collection(const Comm& comm, int meshes, int parts, int patches_per_part,
+                             std::uint64_t seed);
+
+}  // namespace coseg::testing_graphs

@@ -1,0 +1,26 @@
+#pragma once
+// Subspace problems made in code, and the objective written out as the formulas have it.
+
+#include <filesystem>
+#include <string>
+
+#include "solvers/coefficients.hpp"
+#include "solvers/subspace_problem.hpp"
+
+namespace coseg {
+
+/// H features of `rows` rows and N columns drawn around `parts` prototypes, columns of unit 2-norm; the
+/// penalties are the struct's defaults, consecutive columns make meshes of `patches`.
+SubspaceProblem random_subspace_problem(int features, int rows, int columns, int patches, std::uint64_t seed);
+
+/// W_h of all columns, dense: `weights[h]` is N x N. Requires coefficients that own all columns.
+std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients);
+
+/// The objective of `problem.scope` by its definition, with matrices of N x N.
+double subspace_objective(const SubspaceProblem& problem, const std::vector<Eigen::MatrixXd>& weights);
+
+/// Where the problems with a known optimum are: the environment's COSEG_SHARED or ../shared beside the
+/// source, with "/oracle" appended; empty where there is none.
+std::filesystem::path oracle_folder();
+
+}  // namespace coseg
