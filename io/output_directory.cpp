@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "src/error.hpp"
@@ -49,11 +54,39 @@ bool is_empty_or_missing(const fs::path& path) {
     return !cause;
 }
 
+/// The names of this machine's partial folders begin so; the process number follows.
+std::string own_mark() {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+    return partial_mark + std::string(host.data()) + "-";
+}
+
 /// Inside a folder that exists: it may be a mount point, or its parent may be closed to us.
-std::string staging_path(const std::string& path) {
+std::string staging_prefix(const std::string& path) {
     std::error_code ignored;
-    const std::string mark = partial_mark + std::to_string(::getpid());
-    return fs::is_directory(path, ignored) ? path + "/" + mark : path + mark;
+    return (fs::is_directory(path, ignored) ? path + "/" : path) + own_mark();
+}
+
+bool is_of_dead_process(const std::string& number) {
+    pid_t process = 0;
+    const char* end = number.data() + number.size();
+    const auto [stop, error] = std::from_chars(number.data(), end, process);
+    if (error != std::errc() || stop != end || process <= 0) return false;
+    return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+/// A process that is killed cannot tidy up: the next run on this machine that writes to the same place does.
+void remove_leftovers(const fs::path& prefix) {
+    const std::string mark = prefix.filename().string();
+    std::error_code ignored;
+    std::vector<fs::path> leftovers;
+    for (fs::directory_iterator entry(prefix.parent_path(), ignored), end; !ignored && entry != end;
+         entry.increment(ignored)) {
+        const std::string name = entry->path().filename().string();
+        if (name.starts_with(mark) && is_of_dead_process(name.substr(mark.size())))
+            leftovers.push_back(entry->path());
+    }
+    for (const fs::path& leftover : leftovers) fs::remove_all(leftover, ignored);
 }
 
 void move_entry(const fs::path& from, const fs::path& to) {
@@ -106,7 +139,9 @@ void merge_folder(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 OutputDirectory::OutputDirectory(const std::string& directory, bool force)
-    : path_(absolute_directory(directory)), staging_(staging_path(path_)), force_(force) {
+    : path_(absolute_directory(directory)),
+      staging_(staging_prefix(path_) + std::to_string(::getpid())),
+      force_(force) {
     refuse_what_is_there();
     try {
         create();
@@ -151,6 +186,7 @@ void OutputDirectory::create() {
         if (fs::create_directory(parent, cause)) created_parents_.push_back(parent);
         if (cause) fail(parent, "the folder cannot be created", cause);
     }
+    remove_leftovers(staging_prefix(path_));
     fs::remove_all(staging_, cause);  // of a dead process with the same number
     fs::create_directory(staging_, cause);
     if (cause) fail(path_, "the output folder cannot be created", cause);
@@ -181,7 +217,13 @@ void OutputDirectory::move_into_existing() const {
 
 void OutputDirectory::remove_partial() noexcept {
     std::error_code ignored;
-    fs::remove_all(staging_, ignored);
+    // Other ranks may still be writing: a file that appears while the folder is emptied keeps it.
+    constexpr int attempts = 20;
+    for (int k = 0; k < attempts; ++k) {
+        fs::remove_all(staging_, ignored);
+        if (!fs::exists(staging_, ignored)) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     for (auto parent = created_parents_.rbegin(); parent != created_parents_.rend(); ++parent)
         fs::remove(*parent, ignored);
 }

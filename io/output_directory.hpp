@@ -8,9 +8,10 @@
 
 namespace coseg {
 
-/// A run's results are written into a folder beside the wanted one, DIR.partial-PID, which takes the name DIR
-/// in commit(); if DIR exists, into DIR/.partial-PID, whose content commit() moves up. Without commit the
-/// partial folder is removed, and nothing is left behind.
+/// A run's results are written into a folder beside the wanted one, DIR.partial-HOST-PID, which takes the name
+/// DIR in commit(); if DIR exists, into DIR/.partial-HOST-PID, whose content commit() moves up. Without commit
+/// the partial folder is removed, and nothing is left behind; what a process left that was killed is removed by
+/// the next one on its machine that writes to DIR.
 ///
 /// One rank creates and commits; the others write below the path that it hands them (staging()), all into a
 /// file system that every rank sees.

@@ -14,7 +14,7 @@ coseg_packages=(
 )
 
 # To build and run the tests as well.
-coseg_test_packages=(libgtest-dev python3 clang-format clang-tidy shellcheck)
+coseg_test_packages=(libgtest-dev python3 clang-format clang-tidy shellcheck procps)
 
 # missing_packages NAME... : those that are not installed, one a line.
 missing_packages() {

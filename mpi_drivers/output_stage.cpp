@@ -105,6 +105,7 @@ void add_run_facts(const Comm& comm, Report& report, const StageLog& log) {
 ResultFolder::ResultFolder(const Comm& comm, const std::string& path, bool force) {
     agree(comm, [&] {
         if (!comm.is_root()) return;
+        const TerminationPause pause;
         on_root_.emplace(path, force);
         watch_.emplace([this] { on_root_->abandon(); });
     });

@@ -31,6 +31,10 @@ void end_process(int signal) {
     struct sigaction plain {};
     plain.sa_handler = SIG_DFL;
     sigaction(signal, &plain, nullptr);
+    sigset_t signals;  // this thread may have been started in a TerminationPause
+    sigemptyset(&signals);
+    sigaddset(&signals, signal);
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
     std::raise(signal);
 }
 
@@ -77,5 +81,14 @@ TerminationWatch::~TerminationWatch() {
     thread_.join();
     close_channel();
 }
+
+TerminationPause::TerminationPause() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : watched) sigaddset(&signals, signal);
+    pthread_sigmask(SIG_BLOCK, &signals, &before_);
+}
+
+TerminationPause::~TerminationPause() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
 }  // namespace coseg

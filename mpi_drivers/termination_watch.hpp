@@ -1,6 +1,7 @@
 #pragma once
 // What is undone when the process is told to end.
 
+#include <csignal>
 #include <functional>
 #include <thread>
 
@@ -19,6 +20,18 @@ class TerminationWatch {
 
   private:
     std::thread thread_;
+};
+
+/// While it lives, this thread puts those signals off: what must be undone can so be made together with its watch.
+class TerminationPause {
+  public:
+    TerminationPause();
+    ~TerminationPause();
+    TerminationPause(const TerminationPause&) = delete;
+    TerminationPause& operator=(const TerminationPause&) = delete;
+
+  private:
+    sigset_t before_{};
 };
 
 }  // namespace coseg

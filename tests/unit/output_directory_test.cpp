@@ -1,6 +1,8 @@
 #include "io/output_directory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <set>
 
@@ -128,6 +130,37 @@ TEST(OutputDirectory, AFolderThatExistsIsFilledFromWithin) {
     output.commit();
     EXPECT_EQ(tree(folder.path("out")), (std::set<std::string>{".partial-1", ".partial-1/labels", "labels",
                                                                "labels/a.seg", "patches", "ply"}));
+}
+
+/// The number of a process that has ended.
+pid_t ended_process() {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    ::waitpid(child, nullptr, 0);
+    return child;
+}
+
+TEST(OutputDirectory, WhatKilledRunsLeftGoesWithTheNext) {
+    const TemporaryFolder folder;
+    for (const bool inside : {false, true}) {
+        const std::string out = folder.path(inside ? "there" : "new");
+        if (inside) fs::create_directory(out);
+        std::string mark;  // all but the process number of a partial folder's name
+        {
+            const OutputDirectory output(out, false);
+            const std::string& staging = output.staging();
+            mark = staging.substr(0, staging.size() - std::to_string(::getpid()).size());
+        }
+        const std::string dead = mark + std::to_string(ended_process());
+        const std::string alive = mark + std::to_string(::getppid());
+        const std::string other = mark + "1x";  // of a machine whose name begins like ours
+        for (const std::string& left : {dead, alive, other}) fs::create_directories(left + "/labels");
+        write_labels(dead + "/labels/a.seg", {1});
+        const OutputDirectory output(out, false);
+        EXPECT_FALSE(fs::exists(dead));
+        EXPECT_TRUE(fs::exists(alive));
+        EXPECT_TRUE(fs::exists(other));
+    }
 }
 
 TEST(OutputDirectory, AbandonRemovesWhatIsPartialOnly) {
