@@ -1,0 +1,107 @@
+#pragma once
+// HDF5 files: ours, which are there whole or not at all and carry a checksum of every byte, and those of others.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace coseg {
+
+/// Names are paths inside the file ("patches/0"); groups on the way are made as needed. Shapes are in C order, as
+/// h5dump and h5py show them: a column-major `rows x cols` matrix of ours has the shape {cols, rows}.
+using Hdf5Shape = std::vector<std::uint64_t>;
+
+/// The kinds of values that files hold: float, double, std::int8_t, std::int32_t, std::int64_t, std::uint64_t.
+///
+/// A file in the making, in memory until commit() writes it under a temporary name and renames it. The first 512
+/// bytes (HDF5's user block, which h5dump and h5py pass over) hold one line of text: length and XXH3 checksum of
+/// all bytes after them. Root attributes: `format`, `format_version`, `coseg_version`. Not collective; one rank writes
+/// a file.
+class Hdf5Writer {
+  public:
+    /// format: what the file holds, e.g. "coseg mesh description"; version: of that layout.
+    Hdf5Writer(std::string path, const std::string& format, int version);
+    ~Hdf5Writer();
+    Hdf5Writer(const Hdf5Writer&) = delete;
+    Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+    /// The product of the shape must be the number of values; an empty shape stands for {values.size()}.
+    /// compressed: shuffled and deflated; worth it for large data with many equal values.
+    template <class T>
+    void write(const std::string& name, std::span<const T> values, Hdf5Shape shape = {},
+               bool compressed = false);
+    template <class T>
+    void write(const std::string& name, const std::vector<T>& values, Hdf5Shape shape = {},
+               bool compressed = false) {
+        write(name, std::span<const T>(values), std::move(shape), compressed);
+    }
+    /// Shape {cols, rows}.
+    void write_matrix(const std::string& name, const Eigen::Ref<const Eigen::MatrixXd>& matrix);
+    /// UTF-8 of any length.
+    void write_texts(const std::string& name, const std::vector<std::string>& texts);
+
+    /// Attributes of the root.
+    void attribute(const std::string& name, std::int64_t value);
+    void attribute(const std::string& name, double value);
+    void attribute(const std::string& name, const std::string& value);
+
+    /// Throws Error(output) with path and cause (a full disk, a folder that cannot be written); an older file of that
+    /// name then stays as it was.
+    void commit();
+
+  private:
+    struct Handles;
+    std::string path_;
+    std::unique_ptr<Handles> handles_;
+};
+
+/// What is asked of a file before its content is looked at.
+enum class Hdf5Origin {
+    ours,     ///< length and checksum must agree
+    foreign,  ///< any HDF5 file; checked like ours if it has our first line
+};
+
+/// A file to read. Every failure is an Error(input) whose sentence names the file and the dataset.
+class Hdf5Reader {
+  public:
+    /// Throws if the file cannot be read, is no HDF5 file, is damaged (length, checksum), or, for `ours`, holds another
+    /// format or version.
+    Hdf5Reader(std::string path, const std::string& format, int version);
+    /// format and version are for the caller to check.
+    Hdf5Reader(std::string path, Hdf5Origin origin);
+    ~Hdf5Reader();
+    Hdf5Reader(const Hdf5Reader&) = delete;
+    Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+    [[nodiscard]] bool has(const std::string& name) const;
+    /// Names in a group, in byte order; "/" is the root.
+    [[nodiscard]] std::vector<std::string> names(const std::string& group) const;
+    [[nodiscard]] Hdf5Shape shape(const std::string& name) const;
+
+    /// All values of a dataset, converted to T where the file holds another kind of number.
+    template <class T>
+    [[nodiscard]] std::vector<T> read(const std::string& name) const;
+    /// A dataset of shape {cols, rows} as rows x cols.
+    [[nodiscard]] Eigen::MatrixXd read_matrix(const std::string& name) const;
+    [[nodiscard]] std::vector<std::string> read_texts(const std::string& name) const;
+
+    [[nodiscard]] bool has_attribute(const std::string& name) const;
+    [[nodiscard]] std::int64_t integer(const std::string& name) const;
+    [[nodiscard]] double number(const std::string& name) const;
+    [[nodiscard]] std::string text(const std::string& name) const;
+
+    [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+  private:
+    struct Handles;
+    std::string path_;
+    std::unique_ptr<Handles> handles_;
+};
+
+/// Reads every byte of one of our files and compares length and checksum. Throws Error(input) saying what is wrong.
+void verify_checksum(const std::string& path);
+
+}  // namespace coseg
