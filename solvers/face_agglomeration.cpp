@@ -18,16 +18,20 @@ struct Contact {
 
 using Contacts = std::vector<Contact>;  // ascending by group
 
+/// The best merge of one group, its owner, when it was pushed.
 struct MergeCandidate {
     double change;
     int group_a, group_b;  // group_a < group_b
     int version_a, version_b;
+    int owner;  // group_a or group_b
 };
 
+bool is_better(const MergeCandidate& x, const MergeCandidate& y) {
+    return std::tie(x.change, x.group_a, x.group_b) < std::tie(y.change, y.group_a, y.group_b);
+}
+
 struct LaterCandidate {
-    bool operator()(const MergeCandidate& x, const MergeCandidate& y) const {
-        return std::tie(x.change, x.group_a, x.group_b) > std::tie(y.change, y.group_a, y.group_b);
-    }
+    bool operator()(const MergeCandidate& x, const MergeCandidate& y) const { return is_better(y, x); }
 };
 
 auto find_contact(Contacts& contacts, int group) {
@@ -36,6 +40,11 @@ auto find_contact(Contacts& contacts, int group) {
 }
 
 /// The groups while they grow; a group keeps the number of its lowest node.
+///
+/// The heap holds one candidate a group. What two groups would change is other only after one of them has grown, and a
+/// group that has grown pushes its best candidate anew; so the best pair of all is the candidate of whichever of its
+/// groups grew last, unless that group's best partner has grown since. Such a candidate surfaces before any worse one,
+/// and is then replaced.
 class Agglomeration {
   public:
     explicit Agglomeration(const WeightedGraph& graph);
@@ -43,9 +52,11 @@ class Agglomeration {
     [[nodiscard]] std::vector<int> numbered_groups();
 
   private:
-    void push(int a, int b, double shared);
+    [[nodiscard]] MergeCandidate candidate(int owner, const Contact& contact) const;
+    void push_best(int owner);
+    [[nodiscard]] bool is_current(int group, int version) const;
     void merge(int a, int b);
-    [[nodiscard]] Contacts united_contacts(int a, int b) const;
+    void unite_contacts(int a, int b);
     void redirect(int neighbor, int from, int to);
     int root(int node);
 
@@ -54,6 +65,7 @@ class Agglomeration {
     std::vector<Contacts> contacts_;
     std::vector<int> version_;  // counts a group's merges; -1 once it is part of another
     std::vector<int> parent_;
+    Contacts both_;  // scratch of unite_contacts
     std::priority_queue<MergeCandidate, std::vector<MergeCandidate>, LaterCandidate> candidates_;
     int groups_;
 };
@@ -73,28 +85,42 @@ Agglomeration::Agglomeration(const WeightedGraph& graph)
             cut_[v] += graph.weights[k];
         }
     }
-    for (int v = 0; v < groups_; ++v) {
-        for (const Contact& c : contacts_[static_cast<std::size_t>(v)]) {
-            if (v < c.group) push(v, c.group, c.weight);
-        }
-    }
+    for (int v = 0; v < groups_; ++v) push_best(v);
 }
 
-void Agglomeration::push(int a, int b, double shared) {
-    const auto i = static_cast<std::size_t>(std::min(a, b));
-    const auto j = static_cast<std::size_t>(std::max(a, b));
-    const double change =
-        (cut_[i] + cut_[j] - 2.0 * shared) / (mass_[i] + mass_[j]) - cut_[i] / mass_[i] - cut_[j] / mass_[j];
-    candidates_.push({change, static_cast<int>(i), static_cast<int>(j), version_[i], version_[j]});
+MergeCandidate Agglomeration::candidate(int owner, const Contact& contact) const {
+    const auto i = static_cast<std::size_t>(std::min(owner, contact.group));
+    const auto j = static_cast<std::size_t>(std::max(owner, contact.group));
+    const double change = (cut_[i] + cut_[j] - 2.0 * contact.weight) / (mass_[i] + mass_[j]) -
+                          cut_[i] / mass_[i] - cut_[j] / mass_[j];
+    return {change, static_cast<int>(i), static_cast<int>(j), version_[i], version_[j], owner};
+}
+
+void Agglomeration::push_best(int owner) {
+    const Contacts& contacts = contacts_[static_cast<std::size_t>(owner)];
+    if (contacts.empty()) return;
+    MergeCandidate best = candidate(owner, contacts.front());
+    for (const Contact& c : contacts) {
+        const MergeCandidate other = candidate(owner, c);
+        if (is_better(other, best)) best = other;
+    }
+    candidates_.push(best);
+}
+
+bool Agglomeration::is_current(int group, int version) const {
+    return version_[static_cast<std::size_t>(group)] == version;
 }
 
 void Agglomeration::merge_down_to(int target) {
     while (groups_ > target && !candidates_.empty()) {
         const MergeCandidate best = candidates_.top();
         candidates_.pop();
-        const bool outdated = version_[static_cast<std::size_t>(best.group_a)] != best.version_a ||
-                              version_[static_cast<std::size_t>(best.group_b)] != best.version_b;
-        if (!outdated) merge(best.group_a, best.group_b);
+        const bool a_stands = is_current(best.group_a, best.version_a);
+        const bool b_stands = is_current(best.group_b, best.version_b);
+        if (a_stands && b_stands)
+            merge(best.group_a, best.group_b);
+        else if (best.owner == best.group_a ? a_stands : b_stands)
+            push_best(best.owner);
     }
 }
 
@@ -104,8 +130,7 @@ void Agglomeration::merge(int a, int b) {
     for (const Contact& c : contacts_[j]) {
         if (c.group != a) redirect(c.group, b, a);
     }
-    contacts_[i] = united_contacts(a, b);
-    contacts_[j] = {};
+    unite_contacts(a, b);
     mass_[i] += mass_[j];
     // Summed anew: cut_a + cut_b - 2 c_ab would carry rounding errors from merge to merge.
     cut_[i] = 0.0;
@@ -114,27 +139,25 @@ void Agglomeration::merge(int a, int b) {
     version_[j] = -1;
     parent_[j] = a;
     --groups_;
-    for (const Contact& c : contacts_[i]) push(a, c.group, c.weight);
+    push_best(a);
 }
 
-Contacts Agglomeration::united_contacts(int a, int b) const {
-    const Contacts& x = contacts_[static_cast<std::size_t>(a)];
-    const Contacts& y = contacts_[static_cast<std::size_t>(b)];
-    Contacts both;
-    both.reserve(x.size() + y.size());
-    std::merge(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(both),
+void Agglomeration::unite_contacts(int a, int b) {
+    Contacts& x = contacts_[static_cast<std::size_t>(a)];
+    Contacts& y = contacts_[static_cast<std::size_t>(b)];
+    both_.clear();
+    std::merge(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(both_),
                [](const Contact& p, const Contact& q) { return p.group < q.group; });
-    Contacts united;
-    united.reserve(both.size());
-    for (const Contact& c : both) {
+    x.clear();
+    y = {};
+    for (const Contact& c : both_) {
         if (c.group == a || c.group == b) continue;
-        if (!united.empty() && united.back().group == c.group) {
-            united.back().weight += c.weight;
+        if (!x.empty() && x.back().group == c.group) {
+            x.back().weight += c.weight;
         } else {
-            united.push_back(c);
+            x.push_back(c);
         }
     }
-    return united;
 }
 
 /// In the neighbour's list, what it shared with `from` it now shares with `to`.

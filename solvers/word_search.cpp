@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/blas.hpp"
+#include "src/vector_clones.hpp"
+
 namespace coseg {
 
 namespace {
@@ -25,8 +28,8 @@ struct BlockMinima {
 };
 
 /// inner_products: block_points x K, column major.
-void find_minima(const Eigen::MatrixXf& inner_products, const Eigen::VectorXf& square_norms,
-                 BlockMinima& minima) {
+COSEG_VECTOR_CLONES void find_minima(const Eigen::MatrixXf& inner_products,
+                                     const Eigen::VectorXf& square_norms, BlockMinima& minima) {
     minima.smallest.fill(std::numeric_limits<float>::infinity());
     minima.second.fill(std::numeric_limits<float>::infinity());
     minima.word.fill(0);
@@ -65,7 +68,10 @@ void WordSearch::search(const Eigen::MatrixXf& points, std::span<const int> colu
         const Eigen::Index count = std::min(block_points, total - begin);
         for (Eigen::Index i = 0; i < count; ++i)
             block.col(i) = points.col(columns[static_cast<std::size_t>(begin + i)]);
-        inner_products.noalias() = block.transpose() * words_;
+        multiply_transposed(static_cast<int>(block_points), static_cast<int>(words_.cols()),
+                            static_cast<int>(dims), block.data(), static_cast<int>(dims), words_.data(),
+                            static_cast<int>(dims), 0.0F, inner_products.data(),
+                            static_cast<int>(block_points));
         find_minima(inner_products, square_norms_, minima);
         for (Eigen::Index i = 0; i < count; ++i) {
             const auto k = static_cast<std::size_t>(i);

@@ -5,13 +5,15 @@
 #include <limits>
 
 #include "src/seeded_random.hpp"
+#include "src/vector_clones.hpp"
 
 namespace coseg {
 
 namespace {
 
 /// nearest[i] = min(nearest[i], squared distance of point i to point `chosen`); exactly 0 for equal points.
-void lower_square_distances(const Eigen::MatrixXf& points, Eigen::Index chosen, Eigen::VectorXf& nearest) {
+COSEG_VECTOR_CLONES void lower_square_distances(const Eigen::MatrixXf& points, Eigen::Index chosen,
+                                                Eigen::VectorXf& nearest) {
     constexpr Eigen::Index block = 1024;
     std::array<float, block> sum{};
     for (Eigen::Index begin = 0; begin < points.rows(); begin += block) {

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "src/vector_clones.hpp"
+
 namespace coseg {
 
 namespace {
@@ -53,10 +55,16 @@ std::array<float, angle_edges> cosine_thresholds() {
     return thresholds;
 }
 
-/// Cosine times length, and length, of c_k - c_i against the chosen inward normal.
-template <ShapeContextNormal reference>
-void project_samples(const SamplePoints& points, const Eigen::Vector3f& centre, const Eigen::Vector3f& inward,
-                     float* along, float* length) {
+/// Of the vectors c_k - c_i: length, and cosine times length against the face's and against the samples' inward normal.
+struct Projections {
+    explicit Projections(Eigen::Index samples) : length(samples), on_face(samples), on_sample(samples) {}
+    Eigen::VectorXf length;
+    Eigen::VectorXf on_face;
+    Eigen::VectorXf on_sample;
+};
+
+COSEG_VECTOR_CLONES void project_samples(const SamplePoints& points, const Eigen::Vector3f& centre,
+                                         const Eigen::Vector3f& inward, Projections& projections) {
     const Eigen::Index samples = points.centroid.rows();
     const float* px = points.centroid.data();
     const float* py = px + samples;
@@ -64,17 +72,17 @@ void project_samples(const SamplePoints& points, const Eigen::Vector3f& centre, 
     const float* nx = points.inward.data();
     const float* ny = nx + samples;
     const float* nz = ny + samples;
+    float* length = projections.length.data();
+    float* on_face = projections.on_face.data();
+    float* on_sample = projections.on_sample.data();
     for (Eigen::Index k = 0; k < samples; ++k) {
         const float x = px[k] - centre[0];
         const float y = py[k] - centre[1];
         const float z = pz[k] - centre[2];
         // Never 0, so that a sample at the centre has a cosine of 0 rather than none.
         length[k] = std::sqrt(x * x + y * y + z * z + 1e-30F);
-        if constexpr (reference == ShapeContextNormal::face) {
-            along[k] = x * inward[0] + y * inward[1] + z * inward[2];
-        } else {
-            along[k] = x * nx[k] + y * ny[k] + z * nz[k];
-        }
+        on_face[k] = x * inward[0] + y * inward[1] + z * inward[2];
+        on_sample[k] = x * nx[k] + y * ny[k] + z * nz[k];
     }
 }
 
@@ -83,57 +91,60 @@ struct Thresholds {
     std::array<float, angle_edges> cosine;
 };
 
-void bins_of_samples(const Thresholds& thresholds, const float* distance, const float* along,
-                     const float* length, Eigen::Index samples, int* bin) {
+/// Per sample the first of its radial bin's angular ones.
+COSEG_VECTOR_CLONES void radial_bins(const Thresholds& thresholds, const float* distance,
+                                     Eigen::Index samples, int* bin) {
     for (Eigen::Index k = 0; k < samples; ++k) {
         int radial = 0;
         for (const float edge : thresholds.radial) radial += distance[k] >= edge ? 1 : 0;
-        int angle = 0;
-        for (const float edge : thresholds.cosine) angle += along[k] < edge * length[k] ? 1 : 0;
-        bin[k] = radial * shape_context_angles + angle;
+        bin[k] = radial * shape_context_angles;
     }
 }
 
-template <ShapeContextNormal reference>
-Eigen::MatrixXf contexts(const GeodesicTable& table, const FaceGeometry& geometry) {
-    const Eigen::Index samples = table.distance.rows();
-    const SamplePoints points = sample_points(table, geometry);
-    const Thresholds thresholds{radial_thresholds(table), cosine_thresholds()};
-    Eigen::VectorXf along(samples);
-    Eigen::VectorXf length(samples);
-    Eigen::VectorXi bin(samples);
-    Eigen::MatrixXf context(shape_context_bins, table.distance.cols());
-    for (Eigen::Index f = 0; f < context.cols(); ++f) {
-        project_samples<reference>(points, geometry.centroid.col(f).cast<float>(),
-                                   -geometry.normal.col(f).cast<float>(), along.data(), length.data());
-        bins_of_samples(thresholds, table.distance.data() + f * samples, along.data(), length.data(), samples,
-                        bin.data());
-        std::array<double, shape_context_bins> mass{};
-        for (Eigen::Index k = 0; k < samples; ++k)
-            mass[static_cast<std::size_t>(bin[k])] += table.sample_weight[k];
-        for (std::size_t b = 0; b < mass.size(); ++b) {
-            context(static_cast<Eigen::Index>(b), f) = static_cast<float>(mass[b]);
-        }
+COSEG_VECTOR_CLONES void add_angle_bins(const Thresholds& thresholds, const float* along, const float* length,
+                                        Eigen::Index samples, const int* radial, int* bin) {
+    for (Eigen::Index k = 0; k < samples; ++k) {
+        int angle = 0;
+        for (const float edge : thresholds.cosine) angle += along[k] < edge * length[k] ? 1 : 0;
+        bin[k] = radial[k] + angle;
     }
-    return context;
+}
+
+/// Writes `scale` times the samples' weight in each bin.
+void write_context(const Eigen::VectorXi& bin, const Eigen::VectorXd& weight, float scale, float* context) {
+    std::array<double, shape_context_bins> mass{};
+    for (Eigen::Index k = 0; k < bin.size(); ++k) mass[static_cast<std::size_t>(bin[k])] += weight[k];
+    for (std::size_t b = 0; b < mass.size(); ++b) context[b] = scale * static_cast<float>(mass[b]);
 }
 
 }  // namespace
 
 Eigen::MatrixXf shape_context(const GeodesicTable& table, const FaceGeometry& geometry,
                               ShapeContextNormal normal) {
-    switch (normal) {
-        case ShapeContextNormal::face:
-            return contexts<ShapeContextNormal::face>(table, geometry);
-        case ShapeContextNormal::sample:
-            return contexts<ShapeContextNormal::sample>(table, geometry);
-        case ShapeContextNormal::both:
-            break;
+    const Eigen::Index samples = table.distance.rows();
+    const SamplePoints points = sample_points(table, geometry);
+    const Thresholds thresholds{radial_thresholds(table), cosine_thresholds()};
+    const bool both = normal == ShapeContextNormal::both;
+    const float scale = both ? 0.5F : 1.0F;
+    Projections projections(samples);
+    Eigen::VectorXi radial(samples);
+    Eigen::VectorXi bin(samples);
+    Eigen::MatrixXf contexts(both ? 2 * shape_context_bins : shape_context_bins, table.distance.cols());
+    for (Eigen::Index f = 0; f < contexts.cols(); ++f) {
+        project_samples(points, geometry.centroid.col(f).cast<float>(), -geometry.normal.col(f).cast<float>(),
+                        projections);
+        radial_bins(thresholds, table.distance.data() + f * samples, samples, radial.data());
+        float* context = contexts.data() + f * contexts.rows();
+        for (const auto reference : {ShapeContextNormal::face, ShapeContextNormal::sample}) {
+            if (!both && normal != reference) continue;
+            const bool is_face = reference == ShapeContextNormal::face;
+            add_angle_bins(thresholds, (is_face ? projections.on_face : projections.on_sample).data(),
+                           projections.length.data(), samples, radial.data(), bin.data());
+            write_context(bin, table.sample_weight, scale, context);
+            context += shape_context_bins;
+        }
     }
-    Eigen::MatrixXf stacked(2 * shape_context_bins, table.distance.cols());
-    stacked.topRows(shape_context_bins) = 0.5F * contexts<ShapeContextNormal::face>(table, geometry);
-    stacked.bottomRows(shape_context_bins) = 0.5F * contexts<ShapeContextNormal::sample>(table, geometry);
-    return stacked;
+    return contexts;
 }
 
 }  // namespace coseg
