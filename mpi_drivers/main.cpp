@@ -14,6 +14,7 @@
 
 #include "mpi_drivers/command.hpp"
 #include "mpi_drivers/config_file.hpp"
+#include "mpi_drivers/self_launch.hpp"
 #include "mpi_drivers/version.hpp"
 #include "src/error.hpp"
 
@@ -134,6 +135,7 @@ int with_output_written(int code) {
 // What is thrown outside a subcommand (out of memory at start) may end the program at once.
 // NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
+    coseg::launch_on_all_cores(argc, argv);
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);  // threads that watch call no MPI
     int code = 0;

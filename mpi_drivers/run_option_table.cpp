@@ -92,6 +92,9 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
     add_switch(app, "quiet", options_.quiet, "No progress lines; warnings and errors only", in_out_group);
     add(app, "seed", options_.seed, "Seed of all randomness; the same seed gives the same bytes",
         in_out_group);
+    app.add_option("--ranks", ranks_, "Ranks of a run that is started without mpirun; 0: one for each core")
+        ->check(CLI::Range(0, 100000))
+        ->group(in_out_group);
     add(app, "config", options_.config, "Read options from a TOML or INI file; the command line wins",
         in_out_group)
         ->type_name("FILE");

@@ -33,6 +33,7 @@ class RunOptionTable {
 
     RunOptions& options_;
     std::vector<std::pair<std::string, std::function<std::string()>>> printers_;
+    int ranks_ = 0;  // acted on before MPI starts, see self_launch.hpp; here for its check and its help
 };
 
 }  // namespace coseg

@@ -1,6 +1,9 @@
 # shellcheck shell=bash
 # What whole-run tests share: a scratch folder, small meshes made in place, and checks of exit code and message.
 
+# What is started without mpirun is one process here; parallel_start_test.sh sees to the other way.
+export COSEG_RANKS=1
+
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
