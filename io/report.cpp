@@ -52,7 +52,10 @@ Json of_meshes(const std::vector<ReportMesh>& meshes) {
 }
 
 Json of_optimisation(const ReportOptimisation& o) {
-    return {{"scope", o.scope},
+    return {{"variant", o.variant},
+            {"scope", o.scope},
+            {"links", o.links},
+            {"allowed_pairs", o.allowed_pairs},
             {"patches", o.patches},
             {"objective", o.objective},
             {"objective_at_zero", o.objective_at_zero},

@@ -42,7 +42,10 @@ struct ReportRange {
 };
 
 struct ReportOptimisation {
+    std::string variant;
     std::string scope;
+    int links = 0;  ///< meshes in which a patch may have matches, at most
+    std::int64_t allowed_pairs = 0;
     std::int64_t patches = 0;
     double objective = 0.0;
     double objective_at_zero = 0.0;

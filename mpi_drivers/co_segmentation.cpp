@@ -1,7 +1,6 @@
 #include "mpi_drivers/co_segmentation.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "io/mesh_list.hpp"
@@ -9,9 +8,9 @@
 #include "mpi_drivers/feature_stage.hpp"
 #include "mpi_drivers/label_stage.hpp"
 #include "mpi_drivers/mesh_stage.hpp"
+#include "mpi_drivers/optimise_stage.hpp"
 #include "mpi_drivers/output_stage.hpp"
 #include "solvers/petsc_session.hpp"
-#include "solvers/subspace_solver.hpp"
 #include "src/error.hpp"
 #include "src/stage_log.hpp"
 
@@ -21,12 +20,6 @@ namespace {
 
 std::string with_unit(std::int64_t count, const std::string& one, const std::string& many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-std::string significant(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
 }
 
 /// Options that begin with `prefix`: those of the eigensolver ("-eps_") are all known before the run, others
@@ -127,35 +120,6 @@ Collection describe_stage(const Comm& comm, const RunOptions& options, StageLog&
     return collection;
 }
 
-SolveResult optimise_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                           const RunOptions& options, StageLog& log) {
-    log.begin("optimise");
-    SubspaceProblem problem;
-    problem.features = features.histograms;
-    problem.alpha = options.alpha;
-    problem.beta = options.beta;
-    problem.lambda = options.lambda;
-    // One mesh has no other mesh to link to: its patches are then compared among themselves.
-    const bool mesh_scope = options.scope == "mesh" && collection.meshes.size() > 1;
-    problem.scope = mesh_scope ? PenaltyScope::mesh : PenaltyScope::paper;
-    problem.mesh_of = collection.numbering.mesh_of();
-    SolveOptions solve;
-    solve.gap = options.gap;
-    solve.max_iterations = options.max_iterations;
-    solve.max_seconds = options.max_seconds;
-    solve.solver = options.solver;
-    SolveResult result = solve_subspace(comm, problem, solve);
-    log.end(with_unit(result.nonzero_groups, "pair", "pairs") + ", gap " + significant(result.relative_gap) +
-            " (" + to_string(result.reason) + ")");
-    if (result.reason == StopReason::iteration_limit || result.reason == StopReason::time_limit) {
-        log.warn("the optimiser stopped at its " +
-                 std::string(result.reason == StopReason::time_limit ? "time" : "iteration") +
-                 " limit with a relative gap of " + significant(result.relative_gap) +
-                 "; raise --max-iterations or --max-seconds");
-    }
-    return result;
-}
-
 }  // namespace
 
 void co_segment(const Comm& comm, const RunOptions& options,
@@ -177,7 +141,11 @@ void co_segment(const Comm& comm, const RunOptions& options,
     log.end(with_unit(static_cast<std::int64_t>(features.histograms.size()), "feature", "features") + " of " +
             std::to_string(options.bins) + " bins");
 
-    const SolveResult solution = optimise_stage(comm, collection, features, options, log);
+    log.begin("optimise");
+    const Optimisation optimisation = optimise(comm, collection, features, options);
+    const SolveResult& solution = optimisation.result;
+    log.end(describe(optimisation));
+    if (!optimisation.warning.empty()) log.warn(optimisation.warning);
 
     log.begin("cut");
     const CutResult cut = cut_into_parts(comm, collection, features, solution.coefficients, options);
@@ -192,7 +160,7 @@ void co_segment(const Comm& comm, const RunOptions& options,
     log.begin("write");
     write_meshes(comm, folder, collection, labels);
     log.end(options.out);
-    write_run_report(comm, folder, {collection, features, solution, cut, labels, options, resolved}, log);
+    write_run_report(comm, folder, {collection, features, optimisation, cut, labels, options, resolved}, log);
     folder.commit(comm);
 }
 

@@ -53,8 +53,11 @@ std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::Ma
 }
 
 ReportOptimisation report_optimisation(const RunOutcome& outcome) {
-    const SolveResult& solution = outcome.solution;
-    return {.scope = outcome.collection.meshes.size() > 1 ? outcome.options.scope : "paper",
+    const SolveResult& solution = outcome.optimisation.result;
+    return {.variant = outcome.optimisation.variant,
+            .scope = outcome.optimisation.scope,
+            .links = outcome.optimisation.links,
+            .allowed_pairs = outcome.optimisation.allowed_pairs,
             .patches = outcome.collection.numbering.patch_count(),
             .objective = solution.objective,
             .objective_at_zero = solution.objective_at_zero,
@@ -67,10 +70,9 @@ ReportOptimisation report_optimisation(const RunOutcome& outcome) {
 }
 
 void add_strengths(Report& report, const FeatureStrength& strength, const RunOutcome& outcome) {
-    for (std::size_t h = 0; h < outcome.features.feature_of.size(); ++h) {
-        ReportStrength row{.feature = feature_names[static_cast<std::size_t>(outcome.features.feature_of[h])],
-                           .overall = strength.overall[h],
-                           .within_part = {}};
+    for (std::size_t h = 0; h < strength.overall.size(); ++h) {
+        ReportStrength row{
+            .feature = outcome.optimisation.features[h], .overall = strength.overall[h], .within_part = {}};
         for (const std::vector<double>& part : strength.of_part) row.within_part.push_back(part[h]);
         report.feature_strengths.push_back(std::move(row));
     }
@@ -137,7 +139,7 @@ void write_meshes(const Comm& comm, const ResultFolder& folder, const Collection
 void write_run_report(const Comm& comm, const ResultFolder& folder, const RunOutcome& outcome,
                       const StageLog& log) {
     const Eigen::MatrixXd part_areas = gather_part_areas(comm, outcome);
-    const FeatureStrength strength = feature_strength(comm, outcome.solution.coefficients,
+    const FeatureStrength strength = feature_strength(comm, outcome.optimisation.result.coefficients,
                                                       outcome.cut.part_of_patch, outcome.options.parts);
     Report report;
     report.options = outcome.resolved;

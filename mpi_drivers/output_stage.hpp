@@ -11,8 +11,8 @@
 #include "mpi_drivers/feature_stage.hpp"
 #include "mpi_drivers/label_stage.hpp"
 #include "mpi_drivers/mesh_stage.hpp"
+#include "mpi_drivers/optimise_stage.hpp"
 #include "mpi_drivers/termination_watch.hpp"
-#include "solvers/subspace_solver.hpp"
 #include "src/comm.hpp"
 #include "src/stage_log.hpp"
 
@@ -44,7 +44,7 @@ void write_meshes(const Comm& comm, const ResultFolder& folder, const Collection
 struct RunOutcome {
     const Collection& collection;
     const PatchFeatures& features;
-    const SolveResult& solution;
+    const Optimisation& optimisation;
     const CutResult& cut;
     const std::vector<MeshLabels>& labels;
     const RunOptions& options;

@@ -1,8 +1,11 @@
 #include "mpi_drivers/run_option_table.hpp"
 
-#include <cmath>
 #include <sstream>
 #include <type_traits>
+
+#include "mpi_drivers/mesh_description.hpp"
+#include "mpi_drivers/option_checks.hpp"
+#include "solvers/subspace_variants.hpp"
 
 namespace coseg {
 
@@ -27,17 +30,19 @@ std::string printed(const T& value) {
     return text.str();
 }
 
-/// CLI::Range lets NaN pass, and takes a negative number for a large one where the variable has no sign.
-const CLI::Validator finite_number(
-    [](std::string& text) {
-        double value = 0.0;
-        if (CLI::detail::lexical_cast(text, value) && !std::isfinite(value)) return text + " is not finite";
-        return std::string();
-    },
-    "");
-
 const CLI::Validator unsigned_number(
     [](std::string& text) { return text.starts_with("-") ? text + " is negative" : std::string(); }, "");
+
+const CLI::Validator links_text(
+    [](std::string& text) {
+        int links = 0;
+        if (text == "auto" || text == "all") return std::string();
+        const bool number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos &&
+                            CLI::detail::lexical_cast(text, links);
+        return number && links >= 2 ? std::string()
+                                    : text + " is none of auto, all and a number of at least 2";
+    },
+    "auto|all|NUMBER");
 
 }  // namespace
 
@@ -133,10 +138,24 @@ void RunOptionTable::add_patches_and_features(CLI::App& app) {
 }
 
 void RunOptionTable::add_optimisation(CLI::App& app) {
+    add(app, "variant", options_.variant,
+        "Form of the problem: multi-feature; single-feature (see --feature); independent (no consistency "
+        "over the "
+        "features); concatenated (features stacked); ssc, ssc-signed, ssqp (stacked features, all pairs)",
+        optimise_group)
+        ->check(CLI::IsMember(variant_names()));
+    add(app, "feature", options_.feature, "The feature of --variant single-feature", optimise_group)
+        ->check(CLI::IsMember(std::vector<std::string>(feature_names.begin(), feature_names.end())));
     add(app, "scope", options_.scope,
         "What lambda's squared sums run over: paper (whole rows), or mesh (the links of a patch to one mesh)",
         optimise_group)
         ->check(CLI::IsMember({"paper", "mesh"}));
+    add(app, "links", options_.links,
+        "Scope mesh: other meshes in which a patch looks for matches: all, a number (a seeded sample of "
+        "meshes), or "
+        "auto: all in small collections",
+        optimise_group)
+        ->check(links_text);
     add(app, "alpha", options_.alpha, "Weight of the l2,1 penalty: consistency over the features",
         optimise_group)
         ->check(CLI::Range(0.0, 1e12));

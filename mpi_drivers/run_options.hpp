@@ -29,7 +29,10 @@ struct RunOptions {
     std::string ranges = "adapted";
     std::vector<double> feature_weights = {1.0, 0.5, 1.0, 2.0, 1.0};
 
+    std::string variant = "multi-feature";
+    std::string feature = "shape_diameter";  ///< variant single-feature only
     std::string scope = "mesh";
+    std::string links = "auto";
     double alpha = 0.01;
     double beta = 0.1;
     double lambda = 100.0;

@@ -7,7 +7,9 @@
 
 #include "io/problem_file.hpp"
 #include "mpi_drivers/command.hpp"
-#include "solvers/subspace_solver.hpp"
+#include "mpi_drivers/option_checks.hpp"
+#include "solvers/mesh_links.hpp"
+#include "solvers/subspace_variants.hpp"
 
 namespace coseg {
 
@@ -17,6 +19,10 @@ struct SolveSettings {
     std::string path;
     std::string scope = "paper";
     int patches_per_mesh = 1;
+    int links = 0;
+    std::uint64_t seed = 1;
+    std::string variant = "multi-feature";
+    int feature = 1;
     SolveOptions options{.gap = 1e-6};
 };
 
@@ -60,11 +66,14 @@ SubspaceProblem make_problem(ProblemFile file, const SolveSettings& settings) {
     problem.lambda = file.lambda;
     problem.alpha = file.alpha;
     problem.beta = file.beta;
-    if (settings.scope == "mesh") {
+    if (settings.scope == "mesh" && keeps_scope(variant_of(settings.variant))) {
         problem.scope = PenaltyScope::mesh;
         for (std::int64_t i = 0; i < problem.size(); ++i) {
             problem.mesh_of.push_back(static_cast<int>(i / settings.patches_per_mesh));
         }
+        std::vector<std::string> names;
+        for (int m = 0; m <= problem.mesh_of.back(); ++m) names.push_back(std::to_string(m));
+        if (settings.links > 0) problem.allowed_meshes = mesh_links(names, settings.links, settings.seed);
     }
     return problem;
 }
@@ -84,7 +93,9 @@ nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveSettin
             {"seconds", seconds},
             {"ranks", ranks},
             {"solver", settings.options.solver},
+            {"variant", settings.variant},
             {"scope", settings.scope},
+            {"allowed_pairs", allowed_pair_count(problem)},
             {"n", problem.size()},
             {"h", problem.feature_count()},
             {"lambda", problem.lambda},
@@ -93,9 +104,15 @@ nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveSettin
 }
 
 void solve_file(const Comm& comm, const SolveSettings& settings) {
+    if (settings.links > 0 && (settings.scope != "mesh" || !keeps_scope(variant_of(settings.variant)))) {
+        throw AgreedError(ExitCode::usage,
+                          "--links needs --scope mesh and a variant that keeps it; scope paper, ssc and ssqp are "
+                          "over all pairs");
+    }
     const SubspaceProblem problem = make_problem(read_and_broadcast(comm, settings.path), settings);
     const double start = MPI_Wtime();
-    const SolveResult result = solve_subspace(comm, problem, settings.options);
+    const SolveResult result =
+        solve_variant(comm, problem, variant_of(settings.variant), settings.feature - 1, settings.options);
     if (comm.is_root()) {
         std::cout << to_json(problem, settings, result, comm.size(), MPI_Wtime() - start).dump(2)
                   << std::endl;
@@ -126,17 +143,35 @@ Command add_solve_command(CLI::App& parent) {
                     "Scope mesh: columns that make up one mesh, in order")
         ->check(CLI::Range(1, 1 << 30))
         ->capture_default_str();
+    app->add_option("--links", settings->links,
+                    "Scope mesh: other meshes in which a column may have matches, a seeded sample; 0 is all")
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                return text == "1" ? std::string("a mesh needs at least 2") : std::string();
+            },
+            ""))
+        ->check(CLI::Range(0, 1 << 30))
+        ->capture_default_str();
+    app->add_option("--seed", settings->seed, "Of the sample of --links")->capture_default_str();
+    app->add_option("--variant", settings->variant, "Form of the problem; see docs/method.md")
+        ->check(CLI::IsMember(variant_names()))
+        ->capture_default_str();
+    app->add_option("--feature", settings->feature, "Variant single-feature: which, counted from 1")
+        ->check(CLI::Range(1, 1 << 30))
+        ->capture_default_str();
     app->add_option("--solver", settings->options.solver,
                     "How W is stored: all pairs (dense) or a working set")
         ->check(CLI::IsMember({"auto", "dense", "working-set"}))
         ->capture_default_str();
     app->add_option("--gap", settings->options.gap, "Stop at this relative duality gap")
+        ->check(finite_number)
         ->check(CLI::Range(1e-14, 1.0))
         ->capture_default_str();
     app->add_option("--max-iterations", settings->options.max_iterations, "Stop after so many iterations")
         ->check(CLI::Range(1, 1 << 30))
         ->capture_default_str();
     app->add_option("--max-seconds", settings->options.max_seconds, "Stop after so many seconds")
+        ->check(finite_number)
         ->check(CLI::Range(0.0, 1e9))
         ->capture_default_str();
     return {app, [settings](const Invocation& invocation) { solve_file(invocation.world, *settings); }};

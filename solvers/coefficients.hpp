@@ -19,7 +19,8 @@ struct SparseCoefficients {
     int features = 0;                   ///< H
     std::vector<std::int64_t> offsets;  ///< columns.size() + 1
     std::vector<int> rows;              ///< ascending within a column, never the column itself
-    std::vector<double> values;         ///< >= 0; at least one of the H values of a pair is > 0
+    /// >= 0 but for variants of free sign; at least one of the H values of a pair is not 0.
+    std::vector<double> values;
 };
 
 }  // namespace coseg

@@ -1,5 +1,6 @@
 #include "solvers/feature_strength.hpp"
 
+#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -19,7 +20,7 @@ std::vector<double> column_sums(const SparseCoefficients& coefficients,
         for (auto k = static_cast<std::size_t>(coefficients.offsets[c]); k < end; ++k) {
             const bool same_part = part_of_patch[static_cast<std::size_t>(coefficients.rows[k])] == part;
             for (std::size_t h = 0; h < features; ++h) {
-                const double w = coefficients.values[k * features + h];
+                const double w = std::abs(coefficients.values[k * features + h]);
                 all[h] += w;
                 if (same_part) all[features + h] += w;
             }

@@ -38,6 +38,9 @@ struct SubspaceProblem {
     [[nodiscard]] std::int64_t size() const noexcept { return features.front().cols(); }
 };
 
+/// Pairs (i, j), i != j, that may have a value: all in scope paper, those of allowed meshes in scope mesh.
+std::int64_t allowed_pair_count(const SubspaceProblem& problem);
+
 /// Throws Error(input), naming feature and column (both counted from 1), where the problem cannot be solved:
 /// no feature, matrices of different N, no column, a value that is negative or not finite, a column of zeros,
 /// a penalty that is negative or not finite, `mesh_of` of the wrong length. Does not communicate.

@@ -1,0 +1,38 @@
+#pragma once
+// From features to coefficients: sets up the subspace problem as the options ask for it, solves it, and says how well.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mpi_drivers/feature_stage.hpp"
+#include "mpi_drivers/mesh_stage.hpp"
+#include "mpi_drivers/run_options.hpp"
+#include "solvers/subspace_solver.hpp"
+#include "src/comm.hpp"
+#include "src/stage_log.hpp"
+
+namespace coseg {
+
+struct Optimisation {
+    SolveResult result;
+    std::string variant;
+    std::string scope;  ///< what it came to: one mesh alone is always of scope paper, ssc and ssqp too
+    int links = 0;      ///< meshes in which a patch may have matches, at most
+    std::vector<std::string> features;  ///< names of the coefficients' features: H of them, or one
+    std::int64_t allowed_pairs = 0;     ///< that the certificate covers
+    std::string warning;                ///< empty, or why the coefficients deserve a look
+};
+
+/// The problem that the options ask for, with `names` of the meshes as the seed of their links.
+SubspaceProblem subspace_problem(const Collection& collection, const PatchFeatures& features,
+                                 const RunOptions& options);
+
+/// Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what solve_variant throws.
+Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                      const RunOptions& options);
+
+/// One line for the log.
+std::string describe(const Optimisation& optimisation);
+
+}  // namespace coseg
