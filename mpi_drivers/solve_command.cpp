@@ -105,9 +105,10 @@ nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveSettin
 
 void solve_file(const Comm& comm, const SolveSettings& settings) {
     if (settings.links > 0 && (settings.scope != "mesh" || !keeps_scope(variant_of(settings.variant)))) {
-        throw AgreedError(ExitCode::usage,
-                          "--links needs --scope mesh and a variant that keeps it; scope paper, ssc and ssqp are "
-                          "over all pairs");
+        throw AgreedError(
+            ExitCode::usage,
+            "--links needs --scope mesh and a variant that keeps it; scope paper, ssc and ssqp are "
+            "over all pairs");
     }
     const SubspaceProblem problem = make_problem(read_and_broadcast(comm, settings.path), settings);
     const double start = MPI_Wtime();
