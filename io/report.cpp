@@ -42,6 +42,8 @@ Json of_meshes(const std::vector<ReportMesh>& meshes) {
                         {"path", m.path},
                         {"faces", m.faces},
                         {"working_faces", m.working_faces},
+                        {"remeshed", m.remeshed},
+                        {"overlong_area", m.overlong_area},
                         {"patches", m.patches},
                         {"rank", m.rank},
                         {"seconds", m.seconds},

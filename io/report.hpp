@@ -26,8 +26,10 @@ struct ReportMesh {
     std::string name;
     std::string path;
     int faces = 0;          ///< in the file
-    int working_faces = 0;  ///< after repair and refinement
-    int patches = 0;        ///< over all over-segmentations
+    int working_faces = 0;  ///< after repair, remeshing and refinement
+    bool remeshed = false;
+    double overlong_area = 0.0;  ///< share of the area in triangles too long for patches
+    int patches = 0;             ///< over all over-segmentations
     int rank = 0;
     double seconds = 0.0;
     std::vector<double> part_area;  ///< share of the mesh's area, per part

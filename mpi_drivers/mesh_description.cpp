@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "io/mesh_reader.hpp"
 #include "solvers/oversegmentation.hpp"
 #include "src/average_geodesic.hpp"
 #include "src/conformal_factor.hpp"
+#include "src/error.hpp"
+#include "src/face_suitability.hpp"
 #include "src/gaussian_curvature.hpp"
 #include "src/geodesic.hpp"
+#include "src/mapped_remesh.hpp"
 #include "src/midpoint_refinement.hpp"
 #include "src/minimum_curvature.hpp"
 #include "src/seeded_random.hpp"
@@ -21,6 +25,16 @@ namespace {
 
 /// Below this many faces a patch a boundary between patches is too ragged to follow a crease.
 constexpr int faces_per_patch = 20;
+
+/// A remeshed mesh keeps its number of faces within these limits a patch.
+constexpr int fewest_even_faces = 60;
+constexpr int most_even_faces = 400;
+
+/// Share of the area in overlong triangles above which `--remesh auto` remeshes. The labelled sets have up to 0.56 (a
+/// chair) and are cut well as they are; solids of revolution of few rings, which are not, have 0.8 and more.
+constexpr double most_overlong_area = 0.7;
+
+std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
 
 /// Adds the time since it was made, or since the last step, to a step of the description.
 class StepClock {
@@ -40,19 +54,45 @@ class StepClock {
     Clock::time_point last_ = Clock::now();
 };
 
+void refine_if_coarse(TriMesh& mesh, MeshDescription& description, const std::string& path, int patches) {
+    const int coarse = mesh.face_count();
+    const int wanted = patches * faces_per_patch;
+    if (coarse >= wanted) return;
+    refine_to_face_count(mesh, description.map, wanted);
+    description.warnings.push_back(
+        path + ": only " + std::to_string(coarse) + (coarse == 1 ? " triangle for " : " triangles for ") +
+        std::to_string(patches) + " patches: refined internally to " + std::to_string(mesh.face_count()));
+}
+
+void remesh(TriMesh& mesh, MeshDescription& description, const std::string& path, int patches) {
+    const int faces = std::clamp(mesh.face_count(), patches * fewest_even_faces, patches * most_even_faces);
+    remesh_evenly(mesh, description.map, faces);
+    description.remeshed = true;
+    description.warnings.push_back(
+        path + ": " + percent(description.overlong_area) +
+        " of the area is in triangles too long for patches: remeshed internally to " +
+        std::to_string(mesh.face_count()) + " even triangles");
+}
+
+/// A mesh that cannot be remeshed is still cut as well as its triangles allow.
+void remesh_if_possible(TriMesh& mesh, MeshDescription& description, const std::string& path, int patches) {
+    try {
+        remesh(mesh, description, path, patches);
+    } catch (const Error& error) {
+        description.warnings.push_back(path + ": cannot be remeshed, " + error.what());
+    }
+}
+
 TriMesh working_mesh(MeshDescription& description, const std::string& path, const RunOptions& options) {
     RepairedMesh repaired = repair(description.input, path);
     description.warnings = std::move(repaired.warnings);
     description.map = std::move(repaired.map);
-    const int coarse = repaired.mesh.face_count();
-    const int wanted = options.patches * faces_per_patch;
-    if (coarse < wanted) {
-        refine_to_face_count(repaired.mesh, description.map, wanted);
-        description.warnings.push_back(path + ": only " + std::to_string(coarse) +
-                                       (coarse == 1 ? " triangle for " : " triangles for ") +
-                                       std::to_string(options.patches) + " patches: refined internally to " +
-                                       std::to_string(repaired.mesh.face_count()));
-    }
+    description.overlong_area = overlong_area_share(repaired.mesh, options.patches);
+    const bool unsuitable = description.overlong_area > most_overlong_area;
+    if (options.remesh == "always") remesh(repaired.mesh, description, path, options.patches);
+    if (options.remesh == "auto" && unsuitable)
+        remesh_if_possible(repaired.mesh, description, path, options.patches);
+    refine_if_coarse(repaired.mesh, description, path, options.patches);
     scale_to_unit_area(repaired.mesh);
     return std::move(repaired.mesh);
 }

@@ -57,6 +57,8 @@ struct MeshDescription {
     std::uint64_t key = 0;  ///< hash of the name: the mesh's own randomness
     PolygonMesh input;
     FaceMap map;
+    double overlong_area = 0.0;  ///< overlong_area_share of the mesh as it was read and repaired
+    bool remeshed = false;
     FaceGeometry geometry;  ///< of the working mesh, area 1
     DualGraph graph;
     std::array<Eigen::VectorXd, feature_total>

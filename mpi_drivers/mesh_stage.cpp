@@ -140,25 +140,30 @@ void share_warnings(const Comm& comm, Collection& collection) {
 }
 
 void share_facts(const Comm& comm, Collection& collection) {
-    constexpr std::size_t rows = 3;
+    constexpr std::size_t rows = 4;
     const std::size_t meshes = collection.meshes.size();
     std::vector<int> facts(rows * meshes, 0);
-    std::vector<double> seconds(meshes, 0.0);
+    std::vector<double> measures(2 * meshes, 0.0);
     for (const MeshDescription& description : collection.local) {
         const auto m = static_cast<std::size_t>(description.mesh);
         facts[rows * m] = comm.rank();
         facts[rows * m + 1] = description.input.face_count();
         facts[rows * m + 2] = description.graph.face_count;
-        seconds[m] = description.seconds;
+        facts[rows * m + 3] = description.remeshed ? 1 : 0;
+        measures[2 * m] = description.seconds;
+        measures[2 * m + 1] = description.overlong_area;
     }
     facts = share_integers(comm, std::move(facts));
-    MPI_Allreduce(MPI_IN_PLACE, seconds.data(), static_cast<int>(meshes), MPI_DOUBLE, MPI_SUM, comm.raw());
+    MPI_Allreduce(MPI_IN_PLACE, measures.data(), static_cast<int>(measures.size()), MPI_DOUBLE, MPI_SUM,
+                  comm.raw());
     for (std::size_t m = 0; m < meshes; ++m) {
         MeshFacts& mesh = collection.meshes[m];
         mesh.owner = facts[rows * m];
         mesh.input_faces = facts[rows * m + 1];
         mesh.working_faces = facts[rows * m + 2];
-        mesh.seconds = seconds[m];
+        mesh.remeshed = facts[rows * m + 3] != 0;
+        mesh.seconds = measures[2 * m];
+        mesh.overlong_area = measures[2 * m + 1];
     }
     share_warnings(comm, collection);
 }

@@ -20,6 +20,8 @@ struct MeshFacts {
     int owner = 0;  ///< the rank that holds its description
     int input_faces = 0;
     int working_faces = 0;
+    bool remeshed = false;
+    double overlong_area = 0.0;  ///< see src/face_suitability.hpp
     double seconds = 0.0;
     std::vector<std::string> warnings;
 };

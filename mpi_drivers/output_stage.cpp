@@ -43,6 +43,8 @@ std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::Ma
                         .path = mesh.path,
                         .faces = mesh.input_faces,
                         .working_faces = mesh.working_faces,
+                        .remeshed = mesh.remeshed,
+                        .overlong_area = mesh.overlong_area,
                         .patches = outcome.collection.numbering.count(static_cast<int>(m)),
                         .rank = mesh.owner,
                         .seconds = mesh.seconds,

@@ -106,6 +106,12 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
 }
 
 void RunOptionTable::add_patches_and_features(CLI::App& app) {
+    add(app, "remesh", options_.remesh,
+        "Even triangles inside the program: always, never, or auto: for meshes whose triangles are too long "
+        "for "
+        "patches",
+        patches_group)
+        ->check(CLI::IsMember({"auto", "always", "never"}));
     add(app, "patches", options_.patches, "Patches per over-segmentation of a mesh", patches_group)
         ->check(CLI::Range(2, 1000));
     add(app, "oversegmentations", options_.oversegmentations, "Over-segmentations per mesh, pooled",

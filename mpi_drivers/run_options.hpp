@@ -19,6 +19,7 @@ struct RunOptions {
     bool quiet = false;
     std::uint64_t seed = 1;
 
+    std::string remesh = "auto";
     int patches = 50;
     int oversegmentations = 3;
     double cut_noise = 0.3;

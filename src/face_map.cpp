@@ -67,7 +67,8 @@ std::vector<int> carry_labels_back(const FaceMap& map, const std::vector<int>& w
                                    const Eigen::VectorXd& working_area) {
     if (working_labels.size() != map.input_face.size() ||
         at(static_cast<int>(working_area.size())) != map.input_face.size() ||
-        map.stand_in.size() != at(map.input_faces)) {
+        map.stand_in.size() != at(map.input_faces) ||
+        (!map.nearest_working.empty() && map.nearest_working.size() != at(map.input_faces))) {
         throw Error(ExitCode::internal, "labels, areas and face map have different numbers of working faces");
     }
     const WorkingFaces group = group_by_input_face(map);
@@ -79,12 +80,20 @@ std::vector<int> carry_labels_back(const FaceMap& map, const std::vector<int>& w
             const int w = group.members[at(k)];
             shares.emplace_back(working_labels[at(w)], working_area[w]);
         }
-        if (!shares.empty()) labels[at(f)] = largest_label(shares);
+        if (!shares.empty()) {
+            labels[at(f)] = largest_label(shares);
+        } else if (!map.nearest_working.empty() && map.nearest_working[at(f)] >= 0) {
+            labels[at(f)] = working_labels[at(map.nearest_working[at(f)])];
+        }
     }
+    const auto has_label = [&](int f) {
+        return group.offsets[at(f)] != group.offsets[at(f) + 1] ||
+               (!map.nearest_working.empty() && map.nearest_working[at(f)] >= 0);
+    };
     for (int f = 0; f < map.input_faces; ++f) {
-        if (group.offsets[at(f)] != group.offsets[at(f) + 1]) continue;
+        if (has_label(f)) continue;
         const int source = end_of_chain(map, f);
-        if (group.offsets[at(source)] == group.offsets[at(source) + 1]) {
+        if (!has_label(source)) {
             throw Error(ExitCode::internal,
                         "input face " + std::to_string(source) + " has no working face to take a label from");
         }
