@@ -26,6 +26,10 @@ struct OwnFolder {
 };
 
 constexpr std::array<OwnFolder, 3> own_folders{{{"labels", ".seg"}, {"patches", ".seg"}, {"ply", ".ply"}}};
+// Not every run has these; those of an earlier run show what is no longer there.
+constexpr OwnFolder picture_pages{"sheets", ".png"};
+constexpr std::array<const char*, 2> picture_files{"contact_sheet",
+                                                   "report.html"};  // what their names begin with
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, const std::error_code& cause) {
     throw Error(ExitCode::output, path.string() + ": " + what + " (" + cause.message() + ")");
@@ -124,6 +128,18 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
     return entries;
 }
 
+void remove_stale_pictures(const fs::path& old, const fs::path& fresh) {
+    for (const fs::path& path : entries_of(old)) {
+        const std::string name = path.filename().string();
+        const bool is_picture = std::any_of(picture_files.begin(), picture_files.end(),
+                                            [&](const char* begin) { return name.starts_with(begin); });
+        std::error_code cause;
+        if (!is_picture || fs::exists(fresh / name, cause)) continue;
+        fs::remove(path, cause);
+        if (cause) fail(path, "the earlier result cannot be removed", cause);
+    }
+}
+
 /// Moves the content of `from` into `to`, folder by folder, replacing files of the same name.
 void merge_folder(const fs::path& from, const fs::path& to) {
     for (const fs::path& entry : entries_of(from)) {
@@ -212,6 +228,8 @@ void OutputDirectory::commit() {
 
 void OutputDirectory::move_into_existing() const {
     for (const OwnFolder& folder : own_folders) remove_stale(folder, path_, staging_);
+    remove_stale(picture_pages, path_, staging_);
+    remove_stale_pictures(path_, staging_);
     merge_folder(staging_, path_);
 }
 

@@ -36,7 +36,8 @@ class OutputDirectory {
     [[nodiscard]] const std::string& path() const { return path_; }
 
     /// Gives the results their name. In a folder that is not empty (force): files of the same name are
-    /// replaced, and label and PLY files of an earlier run (labels/*.seg, patches/*.seg, ply/*.ply) that this
+    /// replaced, and label and PLY files of an earlier run (labels/*.seg, patches/*.seg, ply/*.ply) and pictures
+    /// (contact_sheet*, sheets/*.png, report.html) that this
     /// run did not write are removed; everything else stays. Throws Error(output); without force an existing
     /// DIR is then untouched.
     void commit();

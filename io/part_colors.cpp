@@ -1,5 +1,7 @@
 #include "io/part_colors.hpp"
 
+#include <array>
+
 namespace coseg {
 
 namespace {

@@ -1,12 +1,9 @@
 #pragma once
 // One colour for every part, the same in every picture.
 
-#include <array>
-#include <cstdint>
+#include "src/image.hpp"
 
 namespace coseg {
-
-using Color = std::array<std::uint8_t, 3>;  ///< red, green, blue
 
 inline constexpr int part_color_count = 64;
 

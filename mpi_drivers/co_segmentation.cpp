@@ -10,6 +10,7 @@
 #include "mpi_drivers/mesh_stage.hpp"
 #include "mpi_drivers/optimise_stage.hpp"
 #include "mpi_drivers/output_stage.hpp"
+#include "mpi_drivers/picture_stage.hpp"
 #include "solvers/petsc_session.hpp"
 #include "src/error.hpp"
 #include "src/stage_log.hpp"
@@ -160,6 +161,11 @@ void co_segment(const Comm& comm, const RunOptions& options,
     log.begin("write");
     write_meshes(comm, folder, collection, labels);
     log.end(options.out);
+    if (options.sheet) {
+        log.begin("picture");
+        write_run_sheet(comm, folder, collection, labels, options);
+        log.end(options.out + "/contact_sheet.png");
+    }
     write_run_report(comm, folder, {collection, features, optimisation, cut, labels, options, resolved}, log);
     folder.commit(comm);
 }

@@ -31,5 +31,6 @@ Command add_run_command(CLI::App& parent);
 Command add_generate_command(CLI::App& parent);
 Command add_score_command(CLI::App& parent);
 Command add_solve_command(CLI::App& parent);
+Command add_render_command(CLI::App& parent);
 
 }  // namespace coseg

@@ -143,23 +143,38 @@ void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const R
     clock.end_of(DescribeStep::relations);
 }
 
-}  // namespace
-
-MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
-                              const RunOptions& options) {
-    MeshDescription description;
+/// All but the patches; returns the working mesh.
+TriMesh describe_surface(MeshDescription& description, int mesh, const std::string& name,
+                         const std::string& path, const RunOptions& options) {
     StepClock clock(description);
     description.mesh = mesh;
     description.key = hash_text(name);
     description.input = read_mesh(path);
     clock.end_of(DescribeStep::read);
-    const TriMesh working = working_mesh(description, path, options);
+    TriMesh working = working_mesh(description, path, options);
     clock.end_of(DescribeStep::repair);
     description.geometry = face_geometry(working);
     description.graph = dual_graph(working, description.geometry);
     clock.end_of(DescribeStep::dual_graph);
     describe_faces(description, working, options, clock);
+    return working;
+}
+
+}  // namespace
+
+MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
+                              const RunOptions& options) {
+    MeshDescription description;
+    const TriMesh working = describe_surface(description, mesh, name, path, options);
+    StepClock clock(description);
     cut_into_patches(description, working, options, clock);
+    return description;
+}
+
+MeshDescription describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
+                                    const RunOptions& options) {
+    MeshDescription description;
+    describe_surface(description, mesh, name, path, options);
     return description;
 }
 

@@ -78,4 +78,8 @@ struct MeshDescription {
 MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
                               const RunOptions& options);
 
+/// The same without patches, neighbours and overlaps.
+MeshDescription describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
+                                    const RunOptions& options);
+
 }  // namespace coseg

@@ -6,12 +6,14 @@
 #include "mpi_drivers/mesh_description.hpp"
 #include "mpi_drivers/option_checks.hpp"
 #include "solvers/subspace_variants.hpp"
+#include "src/shape_view.hpp"
 
 namespace coseg {
 
 namespace {
 
 constexpr const char* in_out_group = "Input and output";
+constexpr const char* picture_group = "Picture";
 constexpr const char* patches_group = "Patches and features";
 constexpr const char* optimise_group = "Optimisation";
 constexpr const char* partition_group = "Partition into parts";
@@ -44,6 +46,16 @@ const CLI::Validator links_text(
     },
     "auto|all|NUMBER");
 
+const CLI::Validator view_name(
+    [](std::string& text) {
+        const bool is_known = text == "auto" || named_view(text, UpAxis::y).has_value();
+        return is_known ? std::string()
+                        : text +
+                              " is no view; take auto, front, back, left, right, top, bottom, "
+                              "corner, or AZIMUTH,ELEVATION in degrees";
+    },
+    "");
+
 }  // namespace
 
 template <class T>
@@ -67,6 +79,7 @@ CLI::Option* RunOptionTable::add_switch(CLI::App& app, const std::string& key, b
 
 RunOptionTable::RunOptionTable(CLI::App& app, RunOptions& options) : options_(options) {
     add_input_and_output(app);
+    add_picture(app);
     add_patches_and_features(app);
     add_optimisation(app);
     add_partition(app);
@@ -103,6 +116,16 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
     add(app, "config", options_.config, "Read options from a TOML or INI file; the command line wins",
         in_out_group)
         ->type_name("FILE");
+}
+
+void RunOptionTable::add_picture(CLI::App& app) {
+    add_switch(app, "sheet", options_.sheet, "Draw contact_sheet.png: every shape, coloured by part",
+               picture_group);
+    add(app, "view", options_.view,
+        "View of the picture: auto, a name or AZIMUTH,ELEVATION; see coseg render --help", picture_group)
+        ->check(view_name);
+    add(app, "up", options_.up, "The axis that points up: auto, x, y, z", picture_group)
+        ->check(CLI::IsMember({"auto", "x", "y", "z"}));
 }
 
 void RunOptionTable::add_patches_and_features(CLI::App& app) {

@@ -22,6 +22,7 @@ class RunOptionTable {
 
   private:
     void add_input_and_output(CLI::App& app);
+    void add_picture(CLI::App& app);
     void add_patches_and_features(CLI::App& app);
     void add_optimisation(CLI::App& app);
     void add_partition(CLI::App& app);

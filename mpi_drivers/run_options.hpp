@@ -20,6 +20,11 @@ struct RunOptions {
     std::uint64_t seed = 1;
 
     std::string remesh = "auto";
+
+    bool sheet = true;
+    std::string view = "auto";
+    std::string up = "auto";
+
     int patches = 50;
     int oversegmentations = 3;
     double cut_noise = 0.3;

@@ -1,0 +1,29 @@
+#pragma once
+// What a finished run left in its folder, read back.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace coseg {
+
+struct FinishedShape {
+    std::string name;
+    std::string path;               ///< of the mesh, as the run was given it
+    std::vector<double> part_area;  ///< K, shares of the shape's area
+};
+
+struct FinishedRun {
+    std::string folder;
+    int parts = 0;
+    std::uint64_t seed = 1;
+    int patches = 50;  ///< options of the run on which the descriptors depend
+    int geodesic_samples = 300;
+    std::vector<double> part_area;  ///< K, mean over the shapes
+    std::vector<FinishedShape> shapes;
+};
+
+/// Reads DIR/report.json. Throws Error(input) if the folder holds no report, or one that is none of ours.
+FinishedRun read_finished_run(const std::string& folder);
+
+}  // namespace coseg

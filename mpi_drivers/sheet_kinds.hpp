@@ -1,0 +1,31 @@
+#pragma once
+// The kinds of contact sheets: what colours the faces, what the legend says.
+
+#include <string>
+#include <vector>
+
+#include "mpi_drivers/face_descriptors.hpp"
+#include "mpi_drivers/finished_shapes.hpp"
+#include "mpi_drivers/sheet_stage.hpp"
+
+namespace coseg {
+
+/// parts, patches, truth, errors and the names of the descriptors.
+std::vector<std::string> sheet_kinds();
+
+/// "20 shapes, 5 parts", and a swatch and the mean share of the area for each part.
+SheetHeading parts_heading(const std::vector<double>& part_area, int shapes);
+
+/// The colour of each face by its part, or by its patch.
+std::vector<Color> colors_of(const std::vector<int>& labels);
+
+/// The shapes drawn as `kind` asks, on this rank, and the heading, on all. label_of_part: from agree_on_truth, for truth
+/// and errors. Truth takes the colour of the part that stands for it. Collective; throws AgreedError.
+struct DrawnKind {
+    std::vector<DrawnShape> shapes;
+    SheetHeading heading;
+};
+DrawnKind drawn_kind(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
+                     const std::string& kind, const std::vector<int>& label_of_part);
+
+}  // namespace coseg
