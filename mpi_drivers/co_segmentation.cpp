@@ -154,7 +154,7 @@ void co_segment(const Comm& comm, const RunOptions& options,
             std::to_string(options.parts) + " parts");
 
     log.begin("label");
-    const std::vector<MeshLabels> labels = label_faces(collection, cut.part_of_patch, options.parts);
+    const std::vector<MeshLabels> labels = label_faces(collection, cut.part_of_patch, options);
     log.end("one part per face");
 
     refuse_unused_petsc_options(comm, "-");

@@ -1,5 +1,8 @@
 #include "mpi_drivers/label_stage.hpp"
 
+#include <string>
+
+#include "solvers/fuzzy_cut.hpp"
 #include "src/face_labels.hpp"
 
 namespace coseg {
@@ -25,18 +28,31 @@ std::vector<double> area_shares(const Eigen::VectorXd& area, const std::vector<i
     return share;
 }
 
+/// How far a crease may draw a boundary, in units of sqrt(area of the mesh): a sixth of the side of a patch.
+constexpr double boundary_reach = 0.025;
+
+std::vector<int> refined(const MeshDescription& mesh, const std::vector<int>& part_of_face,
+                         const std::string& refinement) {
+    if (refinement == "none") return part_of_face;
+    std::vector<double> holding;
+    if (refinement == "held")
+        holding = holding_costs(mesh.graph, mesh.geometry, part_of_face, boundary_reach);
+    return fuzzy_cut(mesh.graph, part_of_face, {}, holding);
+}
+
 }  // namespace
 
 std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
-                                    int parts) {
+                                    const RunOptions& options) {
     std::vector<MeshLabels> labels;
     for (const MeshDescription& mesh : collection.local) {
         const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, part_of_patch);
-        const std::vector<int> part_of_face = vote_face_labels(mesh.patches, part_of, parts, mesh.graph);
+        const std::vector<int> part_of_face =
+            refined(mesh, vote_face_labels(mesh.patches, part_of, options.parts, mesh.graph), options.refine);
         labels.push_back({.mesh = mesh.mesh,
                           .part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area),
                           .patch = carry_labels_back(mesh.map, mesh.patches.front(), mesh.geometry.area),
-                          .part_area = area_shares(mesh.geometry.area, part_of_face, parts)});
+                          .part_area = area_shares(mesh.geometry.area, part_of_face, options.parts)});
     }
     return labels;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mpi_drivers/mesh_stage.hpp"
+#include "mpi_drivers/run_options.hpp"
 
 namespace coseg {
 
@@ -14,8 +15,9 @@ struct MeshLabels {
     std::vector<double> part_area;  ///< K, shares of the mesh's area
 };
 
-/// Labels of this rank's meshes. part_of_patch: N, all patches. Not collective.
+/// Labels of this rank's meshes, voted and refined as options.refine says. part_of_patch: N, all patches. Not
+/// collective.
 std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
-                                    int parts);
+                                    const RunOptions& options);
 
 }  // namespace coseg

@@ -216,6 +216,12 @@ void RunOptionTable::add_partition(CLI::App& app) {
         ->check(CLI::Range(0.0, 1000.0));
     add_switch(app, "choose", options_.choose,
                "Try several adjacency weights and cluster numbers, choose without labels", partition_group);
+    add(app, "refine", options_.refine,
+        "Boundaries between parts moved into creases by fuzzy cuts in a strip of 10 triangles: none, fuzzy "
+        "(Katz and "
+        "Tal 2003), or held (what is far from the boundary is held by its part)",
+        partition_group)
+        ->check(CLI::IsMember({"none", "fuzzy", "held"}));
 }
 
 std::vector<std::pair<std::string, std::string>> RunOptionTable::resolved() const {

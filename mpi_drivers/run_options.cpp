@@ -17,6 +17,7 @@ RunOptions preset_options(const std::string& preset) {
         options.adjacency = 0.0;
         options.overlap = 0.0;
         options.choose = false;
+        options.refine = "fuzzy";
     }
     return options;
 }

@@ -51,6 +51,7 @@ struct RunOptions {
     double adjacency = 5.0;
     double overlap = 1.0;
     bool choose = true;
+    std::string refine = "held";
 };
 
 /// The options that a preset stands for: "default", or "paper" for the literal text of Hu, Fan and Liu (2012).

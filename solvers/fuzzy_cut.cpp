@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <queue>
 #include <utility>
 
 #include "solvers/minimum_cut.hpp"
@@ -110,15 +113,36 @@ std::vector<int> strip_faces(const DualGraph& graph, const std::vector<int>& lab
     return strip;
 }
 
+/// What faces are held by: the labels they came with and what it costs to leave them.
+struct Holding {
+    const std::vector<int>& label;
+    const std::vector<double>& cost;  // empty: nothing
+
+    [[nodiscard]] double of(int face, int kept) const {
+        const auto f = static_cast<std::size_t>(face);
+        return cost.empty() || label[f] != kept ? 0.0 : cost[f];
+    }
+};
+
+double cost_of_leaving(const Holding& holding, const std::vector<int>& now) {
+    double sum = 0.0;
+    for (std::size_t f = 0; f < holding.cost.size(); ++f)
+        sum += now[f] == holding.label[f] ? 0.0 : holding.cost[f];
+    return sum;
+}
+
 /// Labels of the strip's faces after the cut, in the strip's order.
 std::vector<int> cut_strip(const DualGraph& graph, const std::vector<double>& capacity,
-                           const std::vector<int>& label, const std::vector<int>& strip, LabelPair pair) {
+                           const std::vector<int>& label, const Holding& holding,
+                           const std::vector<int>& strip, LabelPair pair) {
     std::vector<int> node(label.size(), -1);
     for (std::size_t k = 0; k < strip.size(); ++k)
         node[static_cast<std::size_t>(strip[k])] = static_cast<int>(k);
     std::vector<double> to_a(strip.size(), 0.0), to_b(strip.size(), 0.0);
     std::vector<CutArc> arcs;
     for (std::size_t k = 0; k < strip.size(); ++k) {
+        to_a[k] = holding.of(strip[k], pair.first);
+        to_b[k] = holding.of(strip[k], pair.second);
         for_each_neighbor(graph, strip[k], [&](int e, int other) {
             const double c = capacity[static_cast<std::size_t>(e)];
             const int other_node = node[static_cast<std::size_t>(other)];
@@ -133,6 +157,47 @@ std::vector<int> cut_strip(const DualGraph& graph, const std::vector<double>& ca
     std::transform(side.begin(), side.end(), cut.begin(),
                    [&](char s) { return s == 0 ? pair.first : pair.second; });
     return cut;
+}
+
+double mean_real_length(const DualGraph& graph) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const DualEdge& e : graph.edges) {
+        if (e.is_virtual) continue;
+        sum += e.length;
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+/// Distance of every face to the nearest boundary between labels, from centroid to centroid; `limit` where it is more.
+std::vector<double> surface_distance(const DualGraph& graph, const FaceGeometry& geometry,
+                                     const std::vector<int>& label, double limit) {
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    std::vector<double> distance(label.size(), limit);
+    const auto reach = [&](int face, double far) {
+        if (far >= distance[static_cast<std::size_t>(face)]) return;
+        distance[static_cast<std::size_t>(face)] = far;
+        open.emplace(far, face);
+    };
+    const auto step = [&](int a, int b) {
+        return (geometry.centroid.col(a) - geometry.centroid.col(b)).norm();
+    };
+    for (const DualEdge& e : graph.edges) {
+        if (e.is_virtual) continue;
+        if (label[static_cast<std::size_t>(e.face_a)] == label[static_cast<std::size_t>(e.face_b)]) continue;
+        reach(e.face_a, 0.5 * step(e.face_a, e.face_b));
+        reach(e.face_b, 0.5 * step(e.face_a, e.face_b));
+    }
+    while (!open.empty()) {
+        const Entry nearest = open.top();
+        open.pop();
+        if (nearest.first > distance[static_cast<std::size_t>(nearest.second)]) continue;
+        for_each_neighbor(graph, nearest.second,
+                          [&](int, int other) { reach(other, nearest.first + step(nearest.second, other)); });
+    }
+    return distance;
 }
 
 }  // namespace
@@ -172,25 +237,43 @@ double boundary_capacity(const DualGraph& graph, const std::vector<double>& capa
 }
 
 std::vector<int> fuzzy_cut(const DualGraph& graph, const std::vector<int>& label,
-                           const FuzzyCutOptions& options) {
+                           const FuzzyCutOptions& options, const std::vector<double>& holding) {
+    if (!holding.empty() && holding.size() != label.size())
+        throw Error(ExitCode::internal, "a fuzzy cut needs one holding cost a face");
     if (options.strip_width < 0 || !(options.convex_weight > 0.0)) {
         throw Error(ExitCode::usage,
                     "a fuzzy cut needs a strip of at least 0 triangles and a convex weight above 0");
     }
     const std::vector<double> capacity = fuzzy_cut_capacities(graph, options);
     const std::vector<char> movable = movable_faces(graph, label, options.strip_width);
+    const Holding held{label, holding};
     std::vector<int> refined = label;
+    const auto cost = [&](const std::vector<int>& labels) {
+        return boundary_capacity(graph, capacity, labels) + cost_of_leaving(held, labels);
+    };
     for (const LabelPair& pair : touching_labels(graph, label)) {
         const std::vector<int> strip = strip_faces(graph, refined, movable, pair, options.strip_width);
         if (strip.empty()) continue;
-        const std::vector<int> cut = cut_strip(graph, capacity, refined, strip, pair);
+        const std::vector<int> cut = cut_strip(graph, capacity, refined, held, strip, pair);
         std::vector<int> candidate = refined;
         for (std::size_t k = 0; k < strip.size(); ++k) candidate[static_cast<std::size_t>(strip[k])] = cut[k];
-        const double gain =
-            boundary_capacity(graph, capacity, refined) - boundary_capacity(graph, capacity, candidate);
-        if (gain > smallest_gain) refined = std::move(candidate);
+        if (cost(refined) - cost(candidate) > smallest_gain) refined = std::move(candidate);
     }
     return refined;
+}
+
+std::vector<double> holding_costs(const DualGraph& graph, const FaceGeometry& geometry,
+                                  const std::vector<int>& label, double reach) {
+    if (!(reach > 0.0)) throw Error(ExitCode::usage, "the reach of a refined boundary must be above 0");
+    const double unit = mean_real_length(graph);
+    std::vector<double> cost(label.size(), 0.0);
+    if (!(unit > 0.0)) return cost;
+    // The cost of a strip from 0 to x is the integral of 2 t / reach^2 over it: its length times (x / reach)^2.
+    const std::vector<double> distance = surface_distance(graph, geometry, label, 2.0 * reach);
+    for (std::size_t f = 0; f < cost.size(); ++f) {
+        cost[f] = 2.0 * distance[f] * geometry.area[static_cast<Eigen::Index>(f)] / (reach * reach * unit);
+    }
+    return cost;
 }
 
 }  // namespace coseg

@@ -161,5 +161,61 @@ TEST(FuzzyCut, TruthOfARealShapeBarelyMoves) {
     EXPECT_LT(boundary_capacity(p.graph, capacity, cut), boundary_capacity(p.graph, capacity, truth));
 }
 
+TEST(FuzzyCut, HeldBoundariesGoNoFartherThanTheirReach) {
+    const Prepared p = prepared(test::dumbbell(40, 24));
+    const std::vector<int> waist = below(p.geometry, 0.0);
+    const std::vector<int> start = below(p.geometry, 0.16);
+    ASSERT_NE(start, waist);
+    ASSERT_EQ(fuzzy_cut(p.graph, start), waist);
+    const std::vector<double> loose = holding_costs(p.graph, p.geometry, start, 10.0);
+    const std::vector<double> tight = holding_costs(p.graph, p.geometry, start, 0.01);
+    EXPECT_EQ(fuzzy_cut(p.graph, start, {}, loose), waist);
+    EXPECT_EQ(fuzzy_cut(p.graph, start, {}, tight), start);
+}
+
+TEST(FuzzyCut, HoldingAStripCostsItsLengthTimesTheSquareOfItsShareOfTheReach) {
+    const Prepared p = prepared(test::flat_square(40));
+    std::vector<int> left;
+    for (Eigen::Index f = 0; f < p.geometry.area.size(); ++f)
+        left.push_back(p.geometry.centroid(0, f) < 0.5 ? 0 : 1);
+    const double reach = 0.2;
+    const std::vector<double> cost = holding_costs(p.graph, p.geometry, left, reach);
+    double length = 0.0;
+    for (const DualEdge& e : p.graph.edges) length += e.length / static_cast<double>(p.graph.edges.size());
+    double strip = 0.0;  // the faces up to 0.1 to the right of the boundary, which is 1 long
+    for (Eigen::Index f = 0; f < p.geometry.area.size(); ++f) {
+        const double x = p.geometry.centroid(0, f) - 0.5;
+        if (x > 0.0 && x < 0.1) strip += cost[static_cast<std::size_t>(f)] * length;
+    }
+    // Distances over the triangles' centroids are up to a third longer than straight ones.
+    EXPECT_GT(strip, 0.25);
+    EXPECT_LT(strip, 0.25 * 1.5);
+}
+
+TEST(FuzzyCut, HeldCutsNeverRaiseTheSumOfCapacityAndHolding) {
+    const Prepared p = prepared(test::dumbbell(30, 18));
+    const std::vector<double> capacity = fuzzy_cut_capacities(p.graph, {});
+    for (unsigned seed = 0; seed < 5; ++seed) {
+        std::vector<int> label(p.graph.offsets.size() - 1);
+        for (std::size_t f = 0; f < label.size(); ++f)
+            label[f] =
+                (p.geometry.centroid(2, static_cast<Eigen::Index>(f)) < 0.3 * normal_of(seed) ? 0 : 1) +
+                (p.geometry.centroid(0, static_cast<Eigen::Index>(f)) < 0.0 ? 0 : 2);
+        const std::vector<double> holding = holding_costs(p.graph, p.geometry, label, 0.15);
+        const std::vector<int> cut = fuzzy_cut(p.graph, label, {}, holding);
+        double left = 0.0;
+        for (std::size_t f = 0; f < label.size(); ++f) left += cut[f] == label[f] ? 0.0 : holding[f];
+        EXPECT_LE(boundary_capacity(p.graph, capacity, cut) + left,
+                  boundary_capacity(p.graph, capacity, label) + 1e-9);
+    }
+}
+
+TEST(FuzzyCut, RefusesHoldingThatDoesNotFit) {
+    const Prepared p = prepared(test::sphere(0));
+    const std::vector<int> label(20, 0);
+    EXPECT_THROW(fuzzy_cut(p.graph, label, {}, std::vector<double>(3, 1.0)), Error);
+    EXPECT_THROW(holding_costs(p.graph, p.geometry, label, 0.0), Error);
+}
+
 }  // namespace
 }  // namespace coseg

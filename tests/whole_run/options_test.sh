@@ -50,6 +50,11 @@ printf '[run]\nfeature-weights = [1, 0, 1, 0, 1]\ninput = ["%s"]\n' "$work/set" 
 refuses "configuration file that is missing" 2 "$work/none.toml" \
     "$COSEG" run "${common[@]}" --config "$work/none.toml" --parts 2 --out "$work/x" "$work/set"
 
+"$COSEG" run "${common[@]}" --parts 2 --refine none --out "$work/voted" "$work/set"
+"$COSEG" run "${common[@]}" --parts 2 --refine fuzzy --out "$work/fuzzy" "$work/set"
+diff -rq "$work/voted/labels" "$work/fuzzy/labels" >"$work/differences" && fail "--refine fuzzy moves nothing"
+refuses "an unknown refinement" 2 "--refine" "$COSEG" run "${common[@]}" --parts 2 --refine maybe --out "$work/x" "$work/set"
+
 printf '# two of them\nset/a.off\n\nset/c.off\n' >"$work/list.txt"
 "$COSEG" run "${common[@]}" --parts 2 --out "$work/listed" "@$work/list.txt"
 [[ $(ls "$work/listed/labels") == $'a.seg\nc.seg' ]] || fail "a list of meshes"
