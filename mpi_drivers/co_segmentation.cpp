@@ -5,12 +5,14 @@
 
 #include "io/mesh_list.hpp"
 #include "mpi_drivers/cut_stage.hpp"
+#include "mpi_drivers/feature_output.hpp"
 #include "mpi_drivers/feature_stage.hpp"
 #include "mpi_drivers/label_stage.hpp"
 #include "mpi_drivers/mesh_stage.hpp"
 #include "mpi_drivers/optimise_stage.hpp"
 #include "mpi_drivers/output_stage.hpp"
 #include "mpi_drivers/picture_stage.hpp"
+#include "mpi_drivers/solution_output.hpp"
 #include "solvers/petsc_session.hpp"
 #include "src/error.hpp"
 #include "src/stage_log.hpp"
@@ -142,10 +144,13 @@ void co_segment(const Comm& comm, const RunOptions& options,
     log.end(with_unit(static_cast<std::int64_t>(features.histograms.size()), "feature", "features") + " of " +
             std::to_string(options.bins) + " bins");
 
+    if (options.keep_features) write_features(comm, collection, features, folder.staging() + "/features.h5");
+
     log.begin("optimise");
     const Optimisation optimisation = optimise(comm, collection, features, options);
     const SolveResult& solution = optimisation.result;
     log.end(describe(optimisation));
+    if (options.parts > 1) refuse_empty_solution(solution, "the collection");
     if (!optimisation.warning.empty()) log.warn(optimisation.warning);
 
     log.begin("cut");

@@ -2,9 +2,7 @@
 
 namespace coseg {
 
-namespace {
-
-std::vector<PatchRelation> global_neighbors(const Collection& collection) {
+std::vector<PatchRelation> local_neighbors(const Collection& collection) {
     std::vector<PatchRelation> relations;
     for (const MeshDescription& mesh : collection.local) {
         for (std::size_t s = 0; s < mesh.neighbors.size(); ++s) {
@@ -17,7 +15,7 @@ std::vector<PatchRelation> global_neighbors(const Collection& collection) {
     return relations;
 }
 
-std::vector<OverlapRelation> global_overlaps(const Collection& collection) {
+std::vector<OverlapRelation> local_overlaps(const Collection& collection) {
     std::vector<OverlapRelation> relations;
     for (const MeshDescription& mesh : collection.local) {
         for (const OverlapsOfPair& pair : mesh.overlaps) {
@@ -30,6 +28,8 @@ std::vector<OverlapRelation> global_overlaps(const Collection& collection) {
     }
     return relations;
 }
+
+namespace {
 
 CutOptions cut_options(const RunOptions& options) {
     CutOptions cut;
@@ -53,8 +53,8 @@ CutOptions cut_options(const RunOptions& options) {
 
 CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                          const SparseCoefficients& coefficients, const RunOptions& options) {
-    const std::vector<PatchRelation> neighbors = global_neighbors(collection);
-    const std::vector<OverlapRelation> overlaps = global_overlaps(collection);
+    const std::vector<PatchRelation> neighbors = local_neighbors(collection);
+    const std::vector<OverlapRelation> overlaps = local_overlaps(collection);
     const std::vector<int> mesh_of = collection.numbering.mesh_of();
     return co_segmentation_cut(comm, {coefficients, neighbors, overlaps, mesh_of, features.patch_area},
                                cut_options(options));

@@ -10,6 +10,10 @@
 
 namespace coseg {
 
+/// What ties the patches of this rank's meshes together, in global numbers.
+std::vector<PatchRelation> local_neighbors(const Collection& collection);
+std::vector<OverlapRelation> local_overlaps(const Collection& collection);
+
 /// Collective. K must not exceed the number of patches. Throws AgreedError(not_converged).
 CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                          const SparseCoefficients& coefficients, const RunOptions& options);

@@ -107,6 +107,8 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
                in_out_group);
     add_switch(app, "strict", options_.strict,
                "A mesh that cannot be used ends the run instead of being set aside", in_out_group);
+    add_switch(app, "keep-features", options_.keep_features,
+               "Also write DIR/features.h5, which coseg cluster reads", in_out_group);
     add_switch(app, "quiet", options_.quiet, "No progress lines; warnings and errors only", in_out_group);
     add(app, "seed", options_.seed, "Seed of all randomness; the same seed gives the same bytes",
         in_out_group);

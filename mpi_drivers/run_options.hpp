@@ -17,6 +17,7 @@ struct RunOptions {
     bool force = false;
     bool strict = false;
     bool quiet = false;
+    bool keep_features = false;
     std::uint64_t seed = 1;
 
     std::string remesh = "auto";

@@ -8,6 +8,7 @@
 #include "io/problem_file.hpp"
 #include "mpi_drivers/command.hpp"
 #include "mpi_drivers/option_checks.hpp"
+#include "mpi_drivers/solution_output.hpp"
 #include "solvers/mesh_links.hpp"
 #include "solvers/subspace_variants.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 struct SolveSettings {
     std::string path;
+    std::string coefficients;
     std::string scope = "paper";
     int patches_per_mesh = 1;
     int links = 0;
@@ -26,37 +28,18 @@ struct SolveSettings {
     SolveOptions options{.gap = 1e-6};
 };
 
-void broadcast_matrix(const Comm& comm, Eigen::MatrixXd& matrix) {
-    constexpr std::int64_t chunk = 1 << 27;
-    for (std::int64_t at = 0; at < matrix.size(); at += chunk) {
-        MPI_Bcast(matrix.data() + at, static_cast<int>(std::min(chunk, matrix.size() - at)), MPI_DOUBLE, 0,
-                  comm.raw());
-    }
-}
-
 /// Rank 0 reads; the others learn of a bad file before they wait for its content.
 ProblemFile read_and_broadcast(const Comm& comm, const std::string& path) {
     ProblemFile file;
     agree(comm, [&] {
         if (comm.is_root()) file = read_problem_file(path);
     });
-    std::int64_t sizes[3] = {0, 0, 0};
     double numbers[3] = {file.lambda, file.alpha, file.beta};
-    if (comm.is_root()) {
-        sizes[0] = static_cast<std::int64_t>(file.features.size());
-        sizes[1] = file.features.front().rows();
-        sizes[2] = file.features.front().cols();
-    }
-    MPI_Bcast(sizes, 3, MPI_INT64_T, 0, comm.raw());
     MPI_Bcast(numbers, 3, MPI_DOUBLE, 0, comm.raw());
     file.lambda = numbers[0];
     file.alpha = numbers[1];
     file.beta = numbers[2];
-    agree(comm, [&] {
-        if (!comm.is_root())
-            file.features.assign(static_cast<std::size_t>(sizes[0]), Eigen::MatrixXd(sizes[1], sizes[2]));
-    });
-    for (Eigen::MatrixXd& feature : file.features) broadcast_matrix(comm, feature);
+    broadcast_matrices(comm, file.features);
     return file;
 }
 
@@ -78,31 +61,6 @@ SubspaceProblem make_problem(ProblemFile file, const SolveSettings& settings) {
     return problem;
 }
 
-nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveSettings& settings,
-                               const SolveResult& result, int ranks, double seconds) {
-    return {{"objective", result.objective},
-            {"lower_bound", result.lower_bound},
-            {"relative_gap", result.relative_gap},
-            {"iterations", result.iterations},
-            {"nonzero_groups", result.nonzero_groups},
-            {"reason", to_string(result.reason)},
-            {"objective_at_zero", result.objective_at_zero},
-            {"kkt_residual", result.kkt_residual},
-            {"working_pairs", result.working_pairs},
-            {"passes", result.passes},
-            {"seconds", seconds},
-            {"ranks", ranks},
-            {"solver", settings.options.solver},
-            {"variant", settings.variant},
-            {"scope", settings.scope},
-            {"allowed_pairs", allowed_pair_count(problem)},
-            {"n", problem.size()},
-            {"h", problem.feature_count()},
-            {"lambda", problem.lambda},
-            {"alpha", problem.alpha},
-            {"beta", problem.beta}};
-}
-
 void solve_file(const Comm& comm, const SolveSettings& settings) {
     if (settings.links > 0 && (settings.scope != "mesh" || !keeps_scope(variant_of(settings.variant)))) {
         throw AgreedError(
@@ -114,17 +72,18 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
     const double start = MPI_Wtime();
     const SolveResult result =
         solve_variant(comm, problem, variant_of(settings.variant), settings.feature - 1, settings.options);
+    const double seconds = MPI_Wtime() - start;
     if (comm.is_root()) {
-        std::cout << to_json(problem, settings, result, comm.size(), MPI_Wtime() - start).dump(2)
-                  << std::endl;
+        auto json = nlohmann::ordered_json::parse(certificate_json(problem, result));
+        json.update({{"variant", settings.variant},
+                     {"scope", problem.scope == PenaltyScope::mesh ? "mesh" : "paper"},
+                     {"seconds", seconds},
+                     {"ranks", comm.size()},
+                     {"solver", settings.options.solver}});
+        std::cout << json.dump(2) << std::endl;
     }
-    if (result.reason != StopReason::gap_reached && result.reason != StopReason::residual_reached) {
-        throw AgreedError(ExitCode::not_converged,
-                          settings.path + ": the gap of " + nlohmann::json(settings.options.gap).dump() +
-                              " was not reached (" + to_string(result.reason) + ", gap " +
-                              nlohmann::json(result.relative_gap).dump() +
-                              "); raise --max-iterations or --max-seconds, or ask for a larger --gap");
-    }
+    write_coefficients(comm, result, settings.coefficients);
+    refuse_unreached_gap(result, settings.options.gap, settings.path);
 }
 
 }  // namespace
@@ -136,6 +95,9 @@ Command add_solve_command(CLI::App& parent) {
     app->add_option("problem", settings->path,
                     "The problem: H d N, penalties, known bounds, then the features")
         ->required();
+    app->add_option("--coefficients", settings->coefficients,
+                    "HDF5 file for W; written also where a limit ends the solve")
+        ->type_name("FILE");
     app->add_option("--scope", settings->scope,
                     "What lambda punishes: row sums (paper) or matches per mesh (mesh)")
         ->check(CLI::IsMember({"paper", "mesh"}))

@@ -1,0 +1,91 @@
+#include "mpi_drivers/solution_output.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "io/feature_file.hpp"
+#include "src/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+void broadcast_values(const Comm& comm, Eigen::MatrixXd& matrix) {
+    constexpr std::int64_t chunk = 1 << 27;
+    for (std::int64_t at = 0; at < matrix.size(); at += chunk) {
+        MPI_Bcast(matrix.data() + at, static_cast<int>(std::min(chunk, matrix.size() - at)), MPI_DOUBLE, 0,
+                  comm.raw());
+    }
+}
+
+}  // namespace
+
+void broadcast_matrices(const Comm& comm, std::vector<Eigen::MatrixXd>& matrices) {
+    auto count = static_cast<std::int64_t>(matrices.size());
+    MPI_Bcast(&count, 1, MPI_INT64_T, 0, comm.raw());
+    std::vector<std::int64_t> sizes;
+    for (const Eigen::MatrixXd& matrix : matrices) sizes.insert(sizes.end(), {matrix.rows(), matrix.cols()});
+    sizes.resize(static_cast<std::size_t>(2 * count));
+    MPI_Bcast(sizes.data(), static_cast<int>(sizes.size()), MPI_INT64_T, 0, comm.raw());
+    agree(comm, [&] {
+        if (comm.is_root()) return;
+        matrices.clear();
+        for (std::size_t h = 0; h < sizes.size(); h += 2) matrices.emplace_back(sizes[h], sizes[h + 1]);
+    });
+    for (Eigen::MatrixXd& matrix : matrices) broadcast_values(comm, matrix);
+}
+
+std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result) {
+    const nlohmann::ordered_json json = {{"objective", result.objective},
+                                         {"lower_bound", result.lower_bound},
+                                         {"relative_gap", result.relative_gap},
+                                         {"iterations", result.iterations},
+                                         {"nonzero_groups", result.nonzero_groups},
+                                         {"reason", to_string(result.reason)},
+                                         {"objective_at_zero", result.objective_at_zero},
+                                         {"kkt_residual", result.kkt_residual},
+                                         {"working_pairs", result.working_pairs},
+                                         {"passes", result.passes},
+                                         {"allowed_pairs", allowed_pair_count(problem)},
+                                         {"n", problem.size()},
+                                         {"h", problem.feature_count()},
+                                         {"lambda", problem.lambda},
+                                         {"alpha", problem.alpha},
+                                         {"beta", problem.beta}};
+    return json.dump();
+}
+
+void write_coefficients(const Comm& comm, const SolveResult& result, const std::string& path) {
+    if (path.empty()) return;
+    const SparseCoefficients& w = result.coefficients;
+    std::vector<std::int64_t> lengths;
+    for (std::size_t c = 0; c + 1 < w.offsets.size(); ++c) lengths.push_back(w.offsets[c + 1] - w.offsets[c]);
+    CoefficientFile file{
+        w.size, w.features, {0}, {}, {}, result.objective, result.lower_bound, to_string(result.reason)};
+    for (const std::int64_t length : all_gather(comm, std::span<const std::int64_t>(lengths)))
+        file.offsets.push_back(file.offsets.back() + length);
+    file.rows = all_gather(comm, std::span<const int>(w.rows));
+    file.values = all_gather(comm, std::span<const double>(w.values));
+    agree(comm, [&] {
+        if (comm.is_root()) write_coefficient_file(path, file);
+    });
+}
+
+void refuse_unreached_gap(const SolveResult& result, double gap, const std::string& subject) {
+    if (result.reason == StopReason::gap_reached || result.reason == StopReason::residual_reached) return;
+    throw AgreedError(ExitCode::not_converged,
+                      subject + ": the gap of " + nlohmann::json(gap).dump() + " was not reached (" +
+                          to_string(result.reason) + ", gap " + nlohmann::json(result.relative_gap).dump() +
+                          "); raise --max-iterations or --max-seconds, or ask for a larger --gap");
+}
+
+void refuse_empty_solution(const SolveResult& result, const std::string& subject) {
+    if (result.nonzero_groups > 0) return;
+    const bool certified = result.reason == StopReason::gap_reached;
+    throw AgreedError(
+        ExitCode::input,
+        subject + (certified ? ": the optimum is W = 0 (certified)" : ": the coefficients are all 0") +
+            ", no item is explained by others, so there is nothing to cut; lower alpha, beta or lambda");
+}
+
+}  // namespace coseg
