@@ -9,8 +9,8 @@ namespace coseg {
 
 /// Above this many meshes each is linked to `default_links` others unless more are asked for; measured in
 /// docs/method.md.
-inline constexpr int meshes_linked_to_all = 64;
-inline constexpr int default_links = 32;
+inline constexpr int meshes_linked_to_all = 128;
+inline constexpr int default_links = 64;
 
 /// For each mesh, ascending, the meshes it is linked to: SubspaceProblem::allowed_meshes. Empty, which stands
 /// for all others, where `links` is at least one less than the number of meshes.
