@@ -10,6 +10,7 @@
 #include "io/label_file.hpp"
 #include "io/mesh_list.hpp"
 #include "io/mesh_reader.hpp"
+#include "mpi_drivers/annotator_score.hpp"
 #include "mpi_drivers/command.hpp"
 #include "src/error.hpp"
 #include "src/polygon_area.hpp"
@@ -23,12 +24,15 @@ namespace fs = std::filesystem;
 struct ScoreOptions {
     std::string truth_folder;
     std::string labels_folder;
+    std::string patches_folder;
+    std::string annotators_folder;
     std::vector<std::string> meshes;
     bool json = false;
 };
 
 struct ScoreInput {
     std::vector<LabelledShape> shapes;
+    double patch_bound = 0.0;  ///< mean over shapes, 0 without --patches
     std::vector<std::string> meshes_without_truth;
     std::vector<std::string> truth_without_mesh;
 };
@@ -65,19 +69,31 @@ LabelledShape read_shape(const MeshEntry& mesh, const ScoreOptions& options) {
     return shape;
 }
 
+double bound_of_patches(LabelledShape shape, const ScoreOptions& options) {
+    if (options.patches_folder.empty() || !shape.labels) return 0.0;
+    shape.labels =
+        read_labels(label_path(options.patches_folder, shape.name), static_cast<int>(shape.truth.size()));
+    return upper_bound_of_labels(shape);
+}
+
 ScoreInput read_input(const ScoreOptions& options) {
     require_folder(options.truth_folder, "--truth");
     require_folder(options.labels_folder, "--labels");
     ScoreInput input;
+    double bounds = 0.0;
     input.truth_without_mesh = label_names(options.truth_folder);
     for (const MeshEntry& mesh : expand_mesh_list(options.meshes)) {
         if (std::erase(input.truth_without_mesh, mesh.name) == 0) {
             input.meshes_without_truth.push_back(mesh.name);
         } else {
             input.shapes.push_back(read_shape(mesh, options));
+            bounds += bound_of_patches(input.shapes.back(), options);
         }
     }
-    if (!input.shapes.empty()) return input;
+    if (!input.shapes.empty()) {
+        input.patch_bound = bounds / static_cast<double>(input.shapes.size());
+        return input;
+    }
     throw Error(ExitCode::input, "no mesh has its truth in '" + options.truth_folder + "'; the truth of '" +
                                      input.meshes_without_truth.front() + "' would be '" +
                                      label_path(options.truth_folder, input.meshes_without_truth.front()) +
@@ -103,11 +119,13 @@ nlohmann::ordered_json per_shape(const SegmentationScore& score, double ShapeSco
     return result;
 }
 
-nlohmann::ordered_json to_json(const SegmentationScore& score, const ScoreInput& input) {
+nlohmann::ordered_json to_json(const SegmentationScore& score, const ScoreInput& input,
+                               const ScoreOptions& options) {
     nlohmann::ordered_json result;
     result["one_to_one"] = rounded(percent(score.one_to_one));
     result["many_to_one"] = rounded(percent(score.many_to_one));
     result["one_label"] = rounded(percent(score.one_label));
+    if (!options.patches_folder.empty()) result["patch_bound"] = rounded(percent(input.patch_bound));
     result["rand_index"] = rounded(score.rand_index);
     result["face_rand_index"] = rounded(score.face_rand_index);
     result["clusters"] = score.clusters;
@@ -169,9 +187,17 @@ std::string to_table(const SegmentationScore& score, const ScoreInput& input) {
 void run_score(const Invocation& invocation, const ScoreOptions& options) {
     agree(invocation.world, [&] {
         if (!invocation.world.is_root()) return;
+        if (!options.annotators_folder.empty()) {
+            require_folder(options.labels_folder, "--labels");
+            std::cout << annotator_json(compare_with_annotators(expand_mesh_list(options.meshes),
+                                                                options.annotators_folder,
+                                                                options.labels_folder))
+                      << std::flush;
+            return;
+        }
         const ScoreInput input = read_input(options);
         const SegmentationScore score = score_segmentation(input.shapes);
-        std::cout << (options.json ? to_json(score, input).dump(2) + "\n" : to_table(score, input))
+        std::cout << (options.json ? to_json(score, input, options).dump(2) + "\n" : to_table(score, input))
                   << std::flush;
     });
 }
@@ -183,10 +209,17 @@ Command add_score_command(CLI::App& parent) {
     CLI::App* app = parent.add_subcommand(
         "score",
         "Compare the labels of a collection with the truth: accuracy by area in percent, Rand index");
-    app->add_option("--truth", options->truth_folder, "Folder of the truth: NAME.seg for each mesh NAME")
-        ->required();
+    CLI::Option_group* known = app->add_option_group("known", "What the labels are compared with");
+    known->add_option("--truth", options->truth_folder, "Folder of the truth: NAME.seg for each mesh NAME");
+    known->add_option("--annotators", options->annotators_folder,
+                      "Folder of several people's segmentations: NAME/NAME_*.seg; prints the measures of the "
+                      "Princeton benchmark as JSON");
+    known->require_option(1);
     app->add_option("--labels", options->labels_folder, "Folder of the labels to score: NAME.seg")
         ->required();
+    app->add_option(
+        "--patches", options->patches_folder,
+        "Folder of patches, NAME.seg: tells how good labels of these patches can be (with --json)");
     app->add_flag("--json", options->json, "Print one JSON object instead of a table");
     app->add_option("meshes", options->meshes, "Meshes, folders of meshes, or @LIST of either")->required();
     return {app, [options](const Invocation& invocation) { run_score(invocation, *options); }};

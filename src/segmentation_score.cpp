@@ -173,4 +173,16 @@ SegmentationScore score_segmentation(const std::vector<LabelledShape>& shapes) {
     return score;
 }
 
+double upper_bound_of_labels(const LabelledShape& shape) {
+    if (!shape.labels) return 0.0;
+    std::map<int, double> most;
+    for (const auto& [cell, area] : area_table(shape)) {
+        double& best = most[cell.first];
+        best = std::max(best, area);
+    }
+    double right = 0.0;
+    for (const auto& [label, area] : most) right += area;
+    return right;
+}
+
 }  // namespace coseg

@@ -47,4 +47,8 @@ struct SegmentationScore {
 /// since the parts of an unsupervised answer have no names.
 SegmentationScore score_segmentation(const std::vector<LabelledShape>& shapes);
 
+/// The accuracy of the shape if each of its own labels, e.g. its patches, took the truth label that covers most of it:
+/// what no choice of parts for these patches can exceed. In [0, 1]; 0 without labels. Errors as above.
+double upper_bound_of_labels(const LabelledShape& shape);
+
 }  // namespace coseg

@@ -110,5 +110,12 @@ TEST(SegmentationScore, NamesTheShapeWithoutAreaAndTheFaceWithoutAFiniteOne) {
     EXPECT_NE(nan.find("face 1 of 'bad'"), std::string::npos) << nan;
 }
 
+TEST(SegmentationScore, UpperBoundGivesEveryPatchItsMajority) {
+    // patch 0: 3 of truth 0, 1 of truth 1; patch 1: 2 of truth 1; patch 2: 4 without truth
+    const LabelledShape one = shape("a", {0, 1, 1, -1}, {0, 0, 1, 2}, {3.0, 1.0, 2.0, 4.0});
+    EXPECT_DOUBLE_EQ(upper_bound_of_labels(one), 0.5);
+    EXPECT_DOUBLE_EQ(upper_bound_of_labels({.name = "b", .truth = {}, .labels = {}, .face_area = {}}), 0.0);
+}
+
 }  // namespace
 }  // namespace coseg
