@@ -17,6 +17,7 @@ struct FinishedRun {
     std::string folder;
     int parts = 0;
     std::uint64_t seed = 1;
+    std::string remesh = "auto";
     int patches = 50;  ///< options of the run on which the descriptors depend
     int geodesic_samples = 300;
     std::vector<double> part_area;  ///< K, mean over the shapes

@@ -77,7 +77,8 @@ Json of_partition(const Report& report) {
     return {{"eigenvalues", report.eigenvalues},
             {"starts", starts},
             {"chosen_start", report.chosen_start},
-            {"part_area", report.part_area}};
+            {"part_area", report.part_area},
+            {"affinity", {{"rows", report.affinity_rows}, {"part_ends", report.affinity_part_ends}}}};
 }
 
 Json of_features(const Report& report) {

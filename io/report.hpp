@@ -83,6 +83,8 @@ struct Report {
     std::vector<std::pair<std::string, std::string>> set_aside;  ///< path and reason
     std::vector<ReportRange> ranges;
     ReportOptimisation optimisation;
+    std::vector<std::string> affinity_rows;  ///< the affinity as a picture: docs/formats.md
+    std::vector<int> affinity_part_ends;
     std::vector<double> eigenvalues;
     std::vector<ReportStart> starts;
     int chosen_start = 0;

@@ -35,6 +35,7 @@ logged quickstart/run.log \
 cat <<END
 
 quickstart/meshes              $shapes shapes of the family '$family' with known parts in quickstart/truth
+quickstart/result/report.html   the run as a page: open it in a browser
 quickstart/result/contact_sheet.png  a picture of all of them, coloured by part
 quickstart/result/ply          the same shapes coloured by part: open them in MeshLab, Blender or ParaView
 quickstart/result/labels       the part of every face, one number a line

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "io/mesh_list.hpp"
+#include "io/report_page.hpp"
 #include "mpi_drivers/cut_stage.hpp"
 #include "mpi_drivers/feature_output.hpp"
 #include "mpi_drivers/feature_stage.hpp"
@@ -12,6 +13,7 @@
 #include "mpi_drivers/optimise_stage.hpp"
 #include "mpi_drivers/output_stage.hpp"
 #include "mpi_drivers/picture_stage.hpp"
+#include "mpi_drivers/report_stage.hpp"
 #include "mpi_drivers/solution_output.hpp"
 #include "solvers/petsc_session.hpp"
 #include "src/error.hpp"
@@ -172,6 +174,11 @@ void co_segment(const Comm& comm, const RunOptions& options,
         log.end(options.out + "/contact_sheet.png");
     }
     write_run_report(comm, folder, {collection, features, optimisation, cut, labels, options, resolved}, log);
+    if (options.html && can_write_report_page()) {
+        log.begin("page");
+        write_html_report(comm, {folder.staging(), {}, ""}, folder.staging(), {options.view, options.up});
+        log.end(options.out + "/report.html");
+    }
     folder.commit(comm);
 }
 

@@ -33,5 +33,6 @@ Command add_score_command(CLI::App& parent);
 Command add_solve_command(CLI::App& parent);
 Command add_render_command(CLI::App& parent);
 Command add_cluster_command(CLI::App& parent);
+Command add_report_command(CLI::App& parent);
 
 }  // namespace coseg

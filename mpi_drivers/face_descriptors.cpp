@@ -47,6 +47,7 @@ Eigen::VectorXd mean_ring(const Eigen::MatrixXf& contexts) {
 FaceDescriptors face_descriptors(const FinishedRun& run, const LabelledMesh& shape) {
     RunOptions options;
     options.seed = run.seed;
+    options.remesh = run.remesh;
     options.patches = run.patches;
     options.geodesic_samples = run.geodesic_samples;
     MeshDescription description = describe_mesh_faces(shape.number, shape.name, shape.path, options);

@@ -6,11 +6,14 @@
 #include "io/ply_writer.hpp"
 #include "io/report.hpp"
 #include "mpi_drivers/version.hpp"
+#include "solvers/affinity_picture.hpp"
 #include "solvers/feature_strength.hpp"
 
 namespace coseg {
 
 namespace {
+
+constexpr int affinity_bins = 96;
 
 double peak_memory_mib() {
     rusage usage{};
@@ -154,6 +157,11 @@ void write_run_report(const Comm& comm, const ResultFolder& folder, const RunOut
         report.ranges.push_back({r.feature, r.kind, r.low, r.high});
     report.optimisation = report_optimisation(outcome);
     add_partition(report, outcome.cut);
+    AffinityPicture affinity =
+        affinity_picture(comm, outcome.optimisation.result.coefficients, outcome.cut.part_of_patch,
+                         outcome.options.parts, affinity_bins);
+    report.affinity_rows = std::move(affinity.rows);
+    report.affinity_part_ends = std::move(affinity.part_ends);
     report.part_area = to_vector(part_areas.rowwise().mean());
     add_strengths(report, strength, outcome);
     agree(comm, [&] {

@@ -123,6 +123,8 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
 void RunOptionTable::add_picture(CLI::App& app) {
     add_switch(app, "sheet", options_.sheet, "Draw contact_sheet.png: every shape, coloured by part",
                picture_group);
+    add_switch(app, "html", options_.html, "Write report.html: the run as one page to look at",
+               picture_group);
     add(app, "view", options_.view,
         "View of the picture: auto, a name or AZIMUTH,ELEVATION; see coseg render --help", picture_group)
         ->check(view_name);

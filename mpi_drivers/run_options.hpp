@@ -23,6 +23,7 @@ struct RunOptions {
     std::string remesh = "auto";
 
     bool sheet = true;
+    bool html = true;
     std::string view = "auto";
     std::string up = "auto";
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "src/polygon_triangulation.hpp"
 #include "src/vertex_welding.hpp"
@@ -68,6 +69,7 @@ PictureMesh picture_mesh(const PolygonMesh& mesh, const std::vector<Color>& colo
                                    vertices[static_cast<std::size_t>(t[1])],
                                    vertices[static_cast<std::size_t>(t[2])]);
             picture.colors.push_back(color_of_face[face]);
+            picture.faces.push_back(f);
         }
     }
     picture.mesh.vertices.resize(3, mesh.vertex_count());
@@ -81,7 +83,8 @@ PictureMesh picture_mesh(const PolygonMesh& mesh, const std::vector<Color>& colo
 }
 
 PictureMesh picture_mesh(const TriMesh& mesh, const std::vector<Color>& color_of_face) {
-    PictureMesh picture{mesh, color_of_face};
+    PictureMesh picture{mesh, color_of_face, std::vector<int>(color_of_face.size())};
+    std::iota(picture.faces.begin(), picture.faces.end(), 0);
     scale_into_unit_ball(picture.mesh);
     return picture;
 }

@@ -13,6 +13,7 @@ namespace coseg {
 struct PictureMesh {
     TriMesh mesh;  ///< scaled into the unit ball about the middle of its bounding box; need not be closed
     std::vector<Color> colors;  ///< per triangle
+    std::vector<int> faces;     ///< per triangle the face of the file that it is of
 };
 
 /// The polygons as they stand in the file (repeated vertices welded, so that smooth stays smooth), each in its

@@ -1,0 +1,19 @@
+#pragma once
+// report.html from a folder of results.
+
+#include <string>
+
+#include "mpi_drivers/finished_shapes.hpp"
+#include "mpi_drivers/sheet_stage.hpp"
+#include "src/comm.hpp"
+
+namespace coseg {
+
+/// Writes OUT/report.html of the results in input.folder, with accuracies if input.truth is given. Meshes of many faces are
+/// shown coarser, so that the file stays small: report_face_budget triangles in all. Every rank reads and packs its share
+/// of the shapes. Collective; throws AgreedError.
+inline constexpr int report_face_budget = 800000;
+void write_html_report(const Comm& comm, const FinishedInput& input, const std::string& out,
+                       const ViewChoice& choice);
+
+}  // namespace coseg
