@@ -72,11 +72,16 @@ Json of_optimisation(const ReportOptimisation& o) {
 Json of_partition(const Report& report) {
     Json starts = Json::array();
     for (const ReportStart& s : report.starts) {
-        starts.push_back({{"adjacency", s.adjacency}, {"clusters", s.clusters}, {"score", s.score}});
+        starts.push_back({{"adjacency", s.adjacency},
+                          {"clusters", s.clusters},
+                          {"score", s.score},
+                          {"presence", s.presence},
+                          {"reserve", s.is_reserve}});
     }
     return {{"eigenvalues", report.eigenvalues},
             {"starts", starts},
             {"chosen_start", report.chosen_start},
+            {"reserve_agreement", report.reserve_agreement},
             {"part_area", report.part_area},
             {"affinity", {{"rows", report.affinity_rows}, {"part_ends", report.affinity_part_ends}}}};
 }

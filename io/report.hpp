@@ -63,6 +63,8 @@ struct ReportStart {
     double adjacency = 0.0;
     int clusters = 0;
     double score = 0.0;
+    double presence = 0.0;
+    bool is_reserve = false;
 };
 
 struct ReportStrength {
@@ -88,6 +90,7 @@ struct Report {
     std::vector<double> eigenvalues;
     std::vector<ReportStart> starts;
     int chosen_start = 0;
+    double reserve_agreement = 0.0;
     std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
     std::vector<ReportStrength> feature_strengths;
     std::vector<std::int64_t> pairs_by_feature_count;  ///< pairs with 1, 2, ... nonzero features

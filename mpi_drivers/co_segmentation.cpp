@@ -46,6 +46,13 @@ void refuse_no_feature(const RunOptions& options) {
     throw AgreedError(ExitCode::usage, "--feature-weights: all are zero; give at least one that is positive");
 }
 
+/// The paper's code adds an offset to the affinity, which leaves the balance without a meaning.
+void refuse_balanced_paper(const RunOptions& options) {
+    if (options.preset != "paper" || options.mesh_balance <= 0.0) return;
+    throw AgreedError(ExitCode::usage,
+                      "--mesh-balance cannot be joined with --preset paper; leave one of them out");
+}
+
 void refuse_too_many_parts(const Collection& collection, const RunOptions& options) {
     const int patches = collection.numbering.patch_count();
     if (options.parts <= patches) return;
@@ -135,6 +142,7 @@ void co_segment(const Comm& comm, const RunOptions& options,
     if (!unknown.empty())
         throw AgreedError(ExitCode::usage, "after --: " + unknown + " is not an option of PETSc or SLEPc");
     refuse_no_feature(options);
+    refuse_balanced_paper(options);
     const PetscSession session(petsc_arguments);
     refuse_unused_petsc_options(comm, "-eps_");
     ResultFolder folder(comm, options.out, options.force);

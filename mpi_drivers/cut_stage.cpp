@@ -35,12 +35,14 @@ CutOptions cut_options(const RunOptions& options) {
     CutOptions cut;
     cut.parts = options.parts;
     cut.form = options.affinity == "formula-8" ? AffinityForm::paper : AffinityForm::links;
+    cut.spectral.mesh_balance = options.mesh_balance;
     if (options.preset == "paper") {
         cut.drop_below = 1e-6;
         cut.spectral.offset = 0.5;
     }
     if (options.choose) {
         cut.starts = pooled_starts(options.parts);
+        if (options.reserve) cut.reserve = articulated_starts(options.parts);
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
         const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};

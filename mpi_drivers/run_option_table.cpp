@@ -218,6 +218,9 @@ void RunOptionTable::add_partition(CLI::App& app) {
     add(app, "overlap", options_.overlap,
         "Weight of overlaps between over-segmentations, as a share of adjacency", partition_group)
         ->check(CLI::Range(0.0, 1000.0));
+    add(app, "mesh-balance", options_.mesh_balance,
+        "How dear it is to cut whole shapes apart instead of parts; 0 gives the paper's cut", partition_group)
+        ->check(CLI::Range(0.0, 1.0));
     add_switch(app, "choose", options_.choose,
                "Try several adjacency weights and cluster numbers, choose without labels", partition_group);
     add(app, "refine", options_.refine,
@@ -226,6 +229,11 @@ void RunOptionTable::add_partition(CLI::App& app) {
         "Tal 2003), or held (what is far from the boundary is held by its part)",
         partition_group)
         ->check(CLI::IsMember({"none", "fuzzy", "held"}));
+    add_switch(
+        app, "reserve", options_.reserve,
+        "With --choose: cuts without adjacency, taken where they agree and the others leave parts out of "
+        "shapes",
+        partition_group);
 }
 
 std::vector<std::pair<std::string, std::string>> RunOptionTable::resolved() const {

@@ -16,6 +16,7 @@ RunOptions preset_options(const std::string& preset) {
         options.affinity = "formula-8";
         options.adjacency = 0.0;
         options.overlap = 0.0;
+        options.mesh_balance = 0.0;
         options.choose = false;
         options.refine = "fuzzy";
     }

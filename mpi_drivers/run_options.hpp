@@ -52,8 +52,10 @@ struct RunOptions {
     std::string affinity = "links";
     double adjacency = 5.0;
     double overlap = 1.0;
+    double mesh_balance = 0.3;
     bool choose = true;
     std::string refine = "held";
+    bool reserve = true;
 };
 
 /// The options that a preset stands for: "default", or "paper" for the literal text of Hu, Fan and Liu (2012).

@@ -1,6 +1,7 @@
 #include "solvers/co_segmentation_cut.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -126,12 +127,15 @@ std::vector<int> start_clusters(const GraphCut& cut, int clusters, StartOutcome&
     return labels;
 }
 
-PartitionTerms terms_of(const GraphCut& cut, const std::vector<int>& labels, int parts) {
-    PartitionTerms terms;
+/// Terms and presence.
+void judge(const GraphCut& cut, const std::vector<int>& labels, int parts, StartOutcome& outcome) {
+    const Eigen::MatrixXd shares = area_shares(labels, parts, cut.input.patch_area, cut.input.mesh_of);
+    PartitionTerms& terms = outcome.terms;
     terms.association = normalized_association(cluster_links(cut.group, cut.scoring, labels, parts));
     terms.concavity = boundary_concavity(cut.terms.neighbors, labels);
     terms.entropy = entropy(mean_area_shares(labels, parts, cut.input.patch_area, cut.input.mesh_of));
-    return terms;
+    terms.evenness = evenness(shares);
+    outcome.presence = presence(shares);
 }
 
 /// The part of each cluster of a start.
@@ -159,7 +163,7 @@ LabelledOutcome run_start(const GraphCut& cut, int index) {
     // Numbered alike, partitions that are the same have the same terms to the last bit.
     result.labels =
         canonical_labels(result.labels, cut.options.parts, cut.input.patch_area, cut.input.mesh_of);
-    result.outcome.terms = terms_of(cut, result.labels, cut.options.parts);
+    judge(cut, result.labels, cut.options.parts, result.outcome);
     return result;
 }
 
@@ -187,7 +191,7 @@ std::vector<LabelledOutcome> run_graph(const Comm& group, const CutInput& input,
     int count = options.parts;
     for (const int k : starts) count = std::max(count, options.starts[static_cast<std::size_t>(k)].clusters);
     const SpectralEmbedding embedding =
-        spectral_embedding(group, graph, options.parts, count, options.spectral);
+        spectral_embedding(group, graph, options.parts, count, options.spectral, input.mesh_of);
     const GraphCut cut{group, input, options, terms, graph, scoring, embedding};
     std::vector<LabelledOutcome> outcomes;
     for (const int k : starts) outcomes.push_back(run_start(cut, k));
@@ -203,8 +207,8 @@ std::vector<LabelledOutcome> share_outcomes(const Comm& comm, const std::vector<
         numbers.insert(numbers.end(), {r.index, r.outcome.parts_found, r.outcome.set_aside,
                                        r.outcome.unreached, static_cast<int>(r.outcome.eigenvalues.size())});
         numbers.insert(numbers.end(), r.labels.begin(), r.labels.end());
-        values.insert(values.end(),
-                      {r.outcome.terms.association, r.outcome.terms.concavity, r.outcome.terms.entropy});
+        values.insert(values.end(), {r.outcome.terms.association, r.outcome.terms.concavity,
+                                     r.outcome.terms.entropy, r.outcome.terms.evenness, r.outcome.presence});
         values.insert(values.end(), r.outcome.eigenvalues.begin(), r.outcome.eigenvalues.end());
     }
     numbers = all_gather(comm, std::span<const int>(numbers));
@@ -223,8 +227,9 @@ std::vector<LabelledOutcome> share_outcomes(const Comm& comm, const std::vector<
         const int eigenvalues = *number++;
         r.labels.assign(number, number + static_cast<std::ptrdiff_t>(patches));
         number += static_cast<std::ptrdiff_t>(patches);
-        r.outcome.terms = {value[0], value[1], value[2]};
-        value += 3;
+        r.outcome.terms = {value[0], value[1], value[2], value[3]};
+        r.outcome.presence = value[4];
+        value += 5;
         r.outcome.eigenvalues.assign(value, value + eigenvalues);
         value += eigenvalues;
     }
@@ -261,12 +266,13 @@ std::vector<LabelledOutcome> run_together(const Comm& comm, const CutInput& inpu
     return all;
 }
 
-std::size_t choose(std::vector<LabelledOutcome>& outcomes, const ChoiceWeights& weights) {
+/// The best of the first `scored` outcomes.
+std::size_t choose(std::vector<LabelledOutcome>& outcomes, std::size_t scored, const ChoiceWeights& weights) {
     std::vector<PartitionTerms> terms;
-    for (const LabelledOutcome& r : outcomes) terms.push_back(r.outcome.terms);
+    for (std::size_t k = 0; k < scored; ++k) terms.push_back(outcomes[k].outcome.terms);
     const std::vector<double> scores = partition_scores(terms, weights);
     std::size_t best = 0;
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    for (std::size_t k = 0; k < scored; ++k) {
         outcomes[k].outcome.score = scores[k];
         const auto rank = [&](std::size_t i) {
             return std::pair(outcomes[i].outcome.parts_found, scores[i]);
@@ -274,6 +280,23 @@ std::size_t choose(std::vector<LabelledOutcome>& outcomes, const ChoiceWeights& 
         if (rank(k) > rank(best)) best = k;
     }
     return best;
+}
+
+/// `best`, or the start of the reserve (outcomes from `first`) that takes its place.
+std::size_t take_reserve(const std::vector<LabelledOutcome>& outcomes, std::size_t first, std::size_t best,
+                         const CutInput& input, const ReserveRule& rule, double& mean_agreement) {
+    if (first == outcomes.size()) return best;
+    std::vector<std::vector<int>> partitions;
+    for (std::size_t k = first; k < outcomes.size(); ++k) partitions.push_back(outcomes[k].labels);
+    const std::vector<double> common = agreement(partitions, input.patch_area);
+    mean_agreement = std::accumulate(common.begin(), common.end(), 0.0) / static_cast<double>(common.size());
+    const std::size_t middle =
+        first + static_cast<std::size_t>(std::max_element(common.begin(), common.end()) - common.begin());
+    const StartOutcome& reserve = outcomes[middle].outcome;
+    const StartOutcome& standard = outcomes[best].outcome;
+    const bool is_sure =
+        mean_agreement >= rule.least_agreement && reserve.parts_found >= standard.parts_found;
+    return is_sure && reserve.presence >= standard.presence + rule.least_gain ? middle : best;
 }
 
 std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::vector<int>& mesh_of,
@@ -295,12 +318,18 @@ void describe_parts(const CutInput& input, int parts, CutResult& result) {
     result.meshes_with_part = count_meshes(result.part_of_patch, input.mesh_of, parts);
 }
 
-}  // namespace
-
-std::vector<CutStart> pooled_starts(int parts) {
+/// K, K+1, K+2, 2K, 3K without repetition.
+std::vector<int> cluster_counts(int parts) {
     std::vector<int> clusters = {parts, parts + 1, parts + 2, 2 * parts, 3 * parts};
     std::sort(clusters.begin(), clusters.end());
     clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
+    return clusters;
+}
+
+}  // namespace
+
+std::vector<CutStart> pooled_starts(int parts) {
+    const std::vector<int> clusters = cluster_counts(parts);
     std::vector<CutStart> starts;
     for (const double weight : {1.0, 2.0, 4.0, 8.0}) {
         const GraphWeights graph{weight, weight};
@@ -310,12 +339,11 @@ std::vector<CutStart> pooled_starts(int parts) {
 }
 
 std::vector<CutStart> articulated_starts(int parts) {
-    const GraphWeights without_adjacency{0.0, 1.0};
+    constexpr GraphWeights without_adjacency{0.0, 1.0};
     std::vector<CutStart> starts;
-    for (const int clusters : {2 * parts, 3 * parts}) {
-        starts.push_back({without_adjacency, clusters, {0.0, 0.0}, MergeRule::affinity});
-        starts.push_back({without_adjacency, clusters, {0.0, 0.0}, MergeRule::alternation});
-        starts.push_back({without_adjacency, clusters, {1.0, 1.0}, MergeRule::normalized_cut});
+    for (const int count : cluster_counts(parts)) {
+        if (count == parts) continue;
+        starts.push_back({without_adjacency, count, without_adjacency, MergeRule::normalized_cut});
     }
     return starts;
 }
@@ -336,11 +364,18 @@ CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const Cut
     const Comm self(MPI_COMM_SELF);
     const bool one_rank = static_cast<std::int64_t>(input.mesh_of.size()) <= options.one_rank_patches;
     const CutTerms terms = cut_terms(comm, self, one_rank, input, options);
+    CutOptions attempts = options;
+    attempts.starts.insert(attempts.starts.end(), options.reserve.begin(), options.reserve.end());
     std::vector<LabelledOutcome> outcomes =
-        one_rank ? run_dealt(comm, self, input, options, terms) : run_together(comm, input, options, terms);
-    result.chosen = static_cast<int>(choose(outcomes, options.choice));
+        one_rank ? run_dealt(comm, self, input, attempts, terms) : run_together(comm, input, attempts, terms);
+    const std::size_t best = choose(outcomes, options.starts.size(), options.choice);
+    result.chosen = static_cast<int>(take_reserve(outcomes, options.starts.size(), best, input,
+                                                  options.reserve_rule, result.reserve_agreement));
     result.part_of_patch = outcomes[static_cast<std::size_t>(result.chosen)].labels;
-    for (LabelledOutcome& r : outcomes) result.starts.push_back(std::move(r.outcome));
+    for (LabelledOutcome& r : outcomes) {
+        r.outcome.in_reserve = result.starts.size() >= options.starts.size();
+        result.starts.push_back(std::move(r.outcome));
+    }
     describe_parts(input, options.parts, result);
     return result;
 }

@@ -40,9 +40,8 @@ struct CutStart {
 /// the same graph.
 std::vector<CutStart> pooled_starts(int parts);
 
-/// Cuts without adjacency (overlap 1) into 2K and 3K clusters, merged by affinity and by alternation in the
-/// base alone and by the normalised cut with some adjacency: for shapes with many limbs, where adjacency in
-/// the cut does harm.
+/// Without adjacency (overlap 1), clusters in {K+1, K+2, 2K, 3K}, merged by the normalised cut of the same graph: for
+/// shapes with many limbs, where adjacency in the cut does harm.
 std::vector<CutStart> articulated_starts(int parts);
 
 /// One cut into the parts, adjacency = overlap; 0 with AffinityForm::paper is the paper's text.
@@ -56,15 +55,25 @@ struct CutInput {
     const std::vector<double>& patch_area;  ///< of all patches, the same on all ranks
 };
 
+/// When the reserve is taken: its starts agree with each other, and the parts they find are in more of the shapes than
+/// those of the start with the best score, which is what many limbs look like. That start of the reserve is taken
+/// which agrees most with the others (ties: the first).
+struct ReserveRule {
+    double least_agreement = 0.95;  ///< mean over the reserve of agreement()
+    double least_gain = 0.05;       ///< of presence()
+};
+
 struct CutOptions {
     int parts = 2;  ///< K, 1 .. number of patches
     AffinityForm form = AffinityForm::links;
-    bool minima_rule = true;       ///< on the base, as the paper prints it
-    double drop_below = 0.0;       ///< entries of S below are dropped; the paper's code: 1e-6
-    SpectralOptions spectral;      ///< the paper's code: offset 0.5
-    std::vector<CutStart> starts;  ///< at least one
-    double score_weight = 1.5;     ///< adjacency and overlap of the graph that scores
+    bool minima_rule = true;        ///< on the base, as the paper prints it
+    double drop_below = 0.0;        ///< entries of S below are dropped; the paper's code: 1e-6
+    SpectralOptions spectral;       ///< the paper's code: offset 0.5
+    std::vector<CutStart> starts;   ///< at least one
+    std::vector<CutStart> reserve;  ///< none, or starts that are taken only as take_reserve says
+    double score_weight = 1.5;      ///< adjacency and overlap of the graph that scores
     ChoiceWeights choice;
+    ReserveRule reserve_rule;
     std::int64_t one_rank_patches = 20000;  ///< up to so many patches a start is one rank's work
 };
 
@@ -72,7 +81,9 @@ struct CutOptions {
 struct StartOutcome {
     CutStart start;
     PartitionTerms terms;
-    double score = 0.0;
+    double presence = 0.0;  ///< see partition_choice.hpp
+    double score = 0.0;     ///< 0 for the reserve, which is not scored
+    bool in_reserve = false;
     int parts_found = 0;  ///< parts with a patch; fewer than asked for where clusters came out empty
     int set_aside = 0;    ///< patches that took no part in the cut and followed their neighbours
     int unreached = 0;    ///< of these: without any labelled neighbour, given to the largest cluster
@@ -83,8 +94,11 @@ struct CutResult {
     std::vector<int> part_of_patch;  ///< 0 .. parts - 1, by decreasing mean area share; the same on all ranks
     std::vector<double> part_share;  ///< mean over meshes of the part's share of area
     std::vector<int> meshes_with_part;  ///< in how many meshes the part occurs; few is a warning sign
-    std::vector<StartOutcome> starts;   ///< in the order of CutOptions::starts
-    int chosen = 0;  ///< the start taken: best score among those with the most parts; ties: the first
+    std::vector<StartOutcome> starts;   ///< in the order of CutOptions::starts, then of the reserve
+    int chosen =
+        0;  ///< the start taken: the best score among those with the most parts, ties: the first; or of the
+            ///< reserve
+    double reserve_agreement = 0.0;  ///< of the reserve's starts with each other; 0 without a reserve
 };
 
 /// Cuts the patches of all meshes into parts.
@@ -96,7 +110,7 @@ struct CutResult {
 ///
 /// Collective. Throws AgreedError: usage (parts out of range), input (nothing to cut), not_converged,
 /// internal. Source: the paper, equation (8), minima rule and normalised cut; Deviates: `links`, adjacency,
-/// overlaps, several starts and their choice.
+/// overlaps, balance of meshes, several starts, their choice and the reserve.
 CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const CutOptions& options);
 
 }  // namespace coseg

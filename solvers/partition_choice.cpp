@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include "solvers/cluster_merging.hpp"
+#include "src/rand_index.hpp"
 
 namespace coseg {
 
@@ -59,6 +61,42 @@ double entropy(std::span<const double> shares) {
     return sum;
 }
 
+double evenness(const Eigen::MatrixXd& shares) {
+    const auto entropy_of = [](const Eigen::VectorXd& column) {
+        return entropy({column.data(), static_cast<std::size_t>(column.size())});
+    };
+    double inside = 0.0;
+    for (Eigen::Index m = 0; m < shares.cols(); ++m) inside += entropy_of(shares.col(m));
+    return inside / static_cast<double>(shares.cols()) - entropy_of(shares.rowwise().mean());
+}
+
+double presence(const Eigen::MatrixXd& shares) {
+    constexpr double least = 0.25;
+    std::int64_t present = 0;
+    for (Eigen::Index p = 0; p < shares.rows(); ++p) {
+        const double mean = shares.row(p).mean();
+        for (Eigen::Index m = 0; m < shares.cols() && mean > 0.0; ++m) {
+            if (shares(p, m) >= least * mean) ++present;
+        }
+    }
+    return static_cast<double>(present) / static_cast<double>(shares.size());
+}
+
+std::vector<double> agreement(const std::vector<std::vector<int>>& partitions,
+                              const std::vector<double>& patch_area) {
+    const std::size_t count = partitions.size();
+    if (count == 1) return {1.0};
+    std::vector<double> mean(count, 0.0);
+    for (std::size_t a = 0; a < count; ++a) {
+        for (std::size_t b = a + 1; b < count; ++b) {
+            const double common = adjusted_rand_index(partitions[a], partitions[b], patch_area);
+            mean[a] += common / static_cast<double>(count - 1);
+            mean[b] += common / static_cast<double>(count - 1);
+        }
+    }
+    return mean;
+}
+
 std::vector<double> partition_scores(std::span<const PartitionTerms> partitions,
                                      const ChoiceWeights& weights) {
     std::vector<double> scores(partitions.size(), 0.0);
@@ -66,6 +104,7 @@ std::vector<double> partition_scores(std::span<const PartitionTerms> partitions,
     add_standardised(partitions, &PartitionTerms::association, weights.association, scores);
     add_standardised(partitions, &PartitionTerms::concavity, weights.concavity, scores);
     add_standardised(partitions, &PartitionTerms::entropy, weights.entropy, scores);
+    add_standardised(partitions, &PartitionTerms::evenness, weights.evenness, scores);
     return scores;
 }
 

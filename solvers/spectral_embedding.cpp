@@ -107,27 +107,6 @@ CutOperator cut_operator(const Comm& comm, const SparseRows& affinity, int parts
     return result;
 }
 
-EigenPairs dense_eigenpairs(const Comm& comm, const CutOperator& op, int count) {
-    const SparseRows all = gather_rows(comm, op.matrix);
-    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(all.size, all.size);
-    for (std::size_t r = 0; r < static_cast<std::size_t>(all.size); ++r) {
-        for (auto k = static_cast<std::size_t>(all.offsets[r]);
-             k < static_cast<std::size_t>(all.offsets[r + 1]); ++k) {
-            dense(static_cast<Eigen::Index>(r), all.columns[k]) = all.values[k];
-        }
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense);
-    if (solver.info() != Eigen::Success) {
-        throw AgreedError(ExitCode::not_converged,
-                          "the dense eigenvalue problem of the cut did not converge");
-    }
-    EigenPairs pairs;
-    for (Eigen::Index k = 1; k <= count; ++k) {
-        pairs.append(solver.eigenvalues()(all.size - k), solver.eigenvectors().col(all.size - k));
-    }
-    return pairs;
-}
-
 /// D^1/2 times the indicator of each component: eigenvectors of eigenvalue 1.
 EigenPairs component_eigenpairs(const CutOperator& op) {
     EigenPairs pairs;
@@ -137,6 +116,78 @@ EigenPairs component_eigenpairs(const CutOperator& op) {
         for (const int i : members) squares += op.degree[static_cast<std::size_t>(i)];
         for (const int i : members) vector(i) = std::sqrt(op.degree[static_cast<std::size_t>(i)] / squares);
         pairs.append(1.0, vector);
+    }
+    return pairs;
+}
+
+/// Entry i: that of patch i in the unit indicator D^1/2 1_m of its mesh m; 0 where set aside.
+std::vector<double> mesh_indicators(const CutOperator& op, const std::vector<int>& mesh_of) {
+    std::vector<double> squares(
+        static_cast<std::size_t>(*std::max_element(mesh_of.begin(), mesh_of.end())) + 1, 0.0);
+    const auto mesh = [&](int i) { return static_cast<std::size_t>(mesh_of[static_cast<std::size_t>(i)]); };
+    for (const int i : op.rows) squares[mesh(i)] += op.degree[static_cast<std::size_t>(i)];
+    std::vector<double> entries(op.degree.size(), 0.0);
+    for (const int i : op.rows) {
+        const auto k = static_cast<std::size_t>(i);
+        entries[k] = std::sqrt(op.degree[k] / squares[mesh(i)]);
+    }
+    return entries;
+}
+
+/// Q Q^T: this rank's rows. Nonzero inside meshes alone.
+SparseRows mesh_projection(const CutOperator& op, const std::vector<int>& mesh_of) {
+    const std::vector<double> indicator = mesh_indicators(op, mesh_of);
+    std::vector<std::vector<int>> members;
+    for (const int i : op.rows) {
+        const auto m = static_cast<std::size_t>(mesh_of[static_cast<std::size_t>(i)]);
+        if (m >= members.size()) members.resize(m + 1);
+        members[m].push_back(i);
+    }
+    std::vector<SparseEntry> entries;
+    for (const std::vector<int>& patches : members) {
+        for (const int i : patches) {
+            if (!op.matrix.rows.contains(i)) continue;
+            for (const int j : patches) {
+                entries.push_back(
+                    {i, j, indicator[static_cast<std::size_t>(i)] * indicator[static_cast<std::size_t>(j)]});
+            }
+        }
+    }
+    return rows_from_entries(op.matrix.size, op.matrix.rows, std::move(entries));
+}
+
+/// Subtracts tau times the projection on the meshes' indicators less what lies in the span of `known`.
+void balance_dense(const CutOperator& op, const std::vector<int>& mesh_of, double tau,
+                   Eigen::MatrixXd& dense) {
+    const std::vector<double> indicator = mesh_indicators(op, mesh_of);
+    Eigen::MatrixXd q =
+        Eigen::MatrixXd::Zero(dense.rows(), *std::max_element(mesh_of.begin(), mesh_of.end()) + 1);
+    for (const int i : op.rows)
+        q(i, mesh_of[static_cast<std::size_t>(i)]) = indicator[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd known = component_eigenpairs(op).vectors;
+    q -= (known * (known.transpose() * q)).eval();
+    dense -= tau * (q * q.transpose());
+}
+
+EigenPairs dense_eigenpairs(const Comm& comm, const CutOperator& op, int count,
+                            const SpectralOptions& options, const std::vector<int>& mesh_of) {
+    const SparseRows all = gather_rows(comm, op.matrix);
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(all.size, all.size);
+    for (std::size_t r = 0; r < static_cast<std::size_t>(all.size); ++r) {
+        for (auto k = static_cast<std::size_t>(all.offsets[r]);
+             k < static_cast<std::size_t>(all.offsets[r + 1]); ++k) {
+            dense(static_cast<Eigen::Index>(r), all.columns[k]) = all.values[k];
+        }
+    }
+    if (options.mesh_balance > 0.0) balance_dense(op, mesh_of, options.mesh_balance, dense);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense);
+    if (solver.info() != Eigen::Success) {
+        throw AgreedError(ExitCode::not_converged,
+                          "the dense eigenvalue problem of the cut did not converge");
+    }
+    EigenPairs pairs;
+    for (Eigen::Index k = 1; k <= count; ++k) {
+        pairs.append(solver.eigenvalues()(all.size - k), solver.eigenvectors().col(all.size - k));
     }
     return pairs;
 }
@@ -283,12 +334,21 @@ void find_missed_pairs(const Comm& comm, const CutOperator& op, Mat matrix, cons
     }
 }
 
+/// The operator as PETSc has it; the span of the components' vectors is left to deflation.
+PetscMatrix cut_matrix(const Comm& comm, const CutOperator& op, const SpectralOptions& options,
+                       const std::vector<int>& mesh_of) {
+    if (options.mesh_balance <= 0.0) return to_petsc(comm, op.matrix);
+    const SparseRows projection = mesh_projection(op, mesh_of);
+    const WeightedMatrix terms[] = {{&op.matrix, 1.0}, {&projection, -options.mesh_balance}};
+    return to_petsc(comm, weighted_sum(terms));
+}
+
 EigenPairs sparse_eigenpairs(const Comm& comm, const CutOperator& op, int count,
-                             const SpectralOptions& options) {
+                             const SpectralOptions& options, const std::vector<int>& mesh_of) {
     EigenPairs pairs = options.offset == 0.0 ? component_eigenpairs(op) : EigenPairs{};
     const int wanted = count - static_cast<int>(pairs.values.size());
     if (wanted <= 0) return pairs;
-    const PetscMatrix matrix = to_petsc(comm, op.matrix);
+    const PetscMatrix matrix = cut_matrix(comm, op, options, mesh_of);
     const EigenPairs found = krylov_eigenpairs(comm, op, matrix.get(), pairs, wanted, 0, options);
     for (int k = 0; k < wanted; ++k)
         pairs.append(found.values[static_cast<std::size_t>(k)], found.vectors.col(k));
@@ -315,11 +375,16 @@ Eigen::MatrixXd back_multiplied(const CutOperator& op, const Eigen::MatrixXd& ve
 }  // namespace
 
 SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinity, int parts, int count,
-                                     const SpectralOptions& options) {
+                                     const SpectralOptions& options, const std::vector<int>& mesh_of) {
+    if (options.mesh_balance > 0.0 && (options.offset != 0.0 || std::ssize(mesh_of) != affinity.size)) {
+        throw AgreedError(ExitCode::internal,
+                          "a balance of meshes needs a mesh for each patch and no offset");
+    }
     const CutOperator op = cut_operator(comm, affinity, parts, options.offset);
     const int vectors = std::min(count, static_cast<int>(op.rows.size()));
-    const EigenPairs pairs = affinity.size <= dense_rows ? dense_eigenpairs(comm, op, vectors)
-                                                         : sparse_eigenpairs(comm, op, vectors, options);
+    const EigenPairs pairs = affinity.size <= dense_rows
+                                 ? dense_eigenpairs(comm, op, vectors, options, mesh_of)
+                                 : sparse_eigenpairs(comm, op, vectors, options, mesh_of);
     SpectralEmbedding embedding;
     embedding.rows = op.rows;
     embedding.eigenvalues = pairs.values;

@@ -28,6 +28,8 @@ CutOptions pooled(int parts) {
     CutOptions options;
     options.parts = parts;
     options.starts = pooled_starts(parts);
+    options.reserve = articulated_starts(parts);
+    options.spectral.mesh_balance = 0.3;
     return options;
 }
 
@@ -45,9 +47,12 @@ void expect_same_result(const CutResult& a, const CutResult& b) {
     EXPECT_EQ(a.part_of_patch, b.part_of_patch);
     EXPECT_EQ(a.part_share, b.part_share);
     EXPECT_EQ(a.chosen, b.chosen);
+    EXPECT_EQ(a.reserve_agreement, b.reserve_agreement);
     ASSERT_EQ(a.starts.size(), b.starts.size());
     for (std::size_t k = 0; k < a.starts.size(); ++k) {
         EXPECT_EQ(a.starts[k].score, b.starts[k].score);
+        EXPECT_EQ(a.starts[k].presence, b.starts[k].presence);
+        EXPECT_EQ(a.starts[k].terms.evenness, b.starts[k].terms.evenness);
         EXPECT_EQ(a.starts[k].eigenvalues, b.starts[k].eigenvalues);
         EXPECT_EQ(a.starts[k].start.clusters, b.starts[k].start.clusters);
     }
@@ -78,9 +83,9 @@ TEST_P(CoSegmentationCut, HasTheSameBytesOnAnyNumberOfRanks) {
     const ToyCollection alone = toy_collection(self, 5, parts, 5, 3);
     expect_same_result(cut(comm, shared, pooled(parts)), cut(self, alone, pooled(parts)));
     expect_same_result(cut(comm, shared, paper(parts)), cut(self, alone, paper(parts)));
-    CutOptions articulated = pooled(parts);
-    articulated.starts = articulated_starts(parts);
-    expect_same_result(cut(comm, shared, articulated), cut(self, alone, articulated));
+    CutOptions without_adjacency = pooled(parts);
+    without_adjacency.starts = without_adjacency.reserve;
+    expect_same_result(cut(comm, shared, without_adjacency), cut(self, alone, without_adjacency));
 }
 
 TEST_P(CoSegmentationCut, AllRanksTogetherFindWhatOneFindsAlone) {
@@ -99,6 +104,36 @@ TEST_P(CoSegmentationCut, AllRanksTogetherFindWhatOneFindsAlone) {
             EXPECT_NEAR(together.starts[k].eigenvalues[e], dealt.starts[k].eigenvalues[e], 1e-8);
         }
     }
+}
+
+TEST_P(CoSegmentationCut, TakesTheReserveWhereAdjacencyCutsShapesApart) {
+    const Comm comm(MPI_COMM_WORLD);
+    const int parts = GetParam();
+    ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
+    for (PatchRelation& pair : toy.neighbors) pair.concavity = 0.0;  // nothing tells where segments meet
+    CutOptions options;
+    options.parts = parts;
+    options.starts = single_start(parts, 1000.0);
+    EXPECT_FALSE(same_partition(cut(comm, toy, options).part_of_patch, toy.truth)) << "shapes, not parts";
+    options.reserve = articulated_starts(parts);
+    const CutResult result = cut(comm, toy, options);
+    EXPECT_GE(result.chosen, 1);
+    EXPECT_TRUE(result.starts[static_cast<std::size_t>(result.chosen)].in_reserve);
+    EXPECT_FALSE(result.starts[0].in_reserve);
+    EXPECT_GE(result.reserve_agreement, options.reserve_rule.least_agreement);
+    EXPECT_TRUE(same_partition(result.part_of_patch, toy.truth));
+    options.reserve_rule.least_agreement = 1.1;
+    EXPECT_EQ(cut(comm, toy, options).chosen, 0) << "starts that do not agree are not taken";
+    options.reserve_rule = {.least_agreement = 0.95, .least_gain = 1.1};
+    EXPECT_EQ(cut(comm, toy, options).chosen, 0) << "nor those that find no more";
+}
+
+TEST_P(CoSegmentationCut, LeavesTheReserveWherePartsAreInAllShapes) {
+    const Comm comm(MPI_COMM_WORLD);
+    const ToyCollection toy = toy_collection(comm, 6, GetParam(), 6, 77);
+    const CutResult result = cut(comm, toy, pooled(GetParam()));
+    EXPECT_FALSE(result.starts[static_cast<std::size_t>(result.chosen)].in_reserve);
+    EXPECT_EQ(result.starts[static_cast<std::size_t>(result.chosen)].presence, 1.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Parts, CoSegmentationCut, testing::Values(2, 3, 5));

@@ -194,6 +194,73 @@ TEST(NormalizedCut, NamesTheResidualWhenItDoesNotConverge) {
     }
 }
 
+/// Two meshes of two parts of n nodes each, node ((mesh * 2 + part) * n + k); all pairs linked: 1 inside a part of a
+/// mesh, `mesh` inside a mesh, `part` inside a part, else not.
+SparseRows two_by_two(int n, double mesh, double part) {
+    std::vector<Edge> edges;
+    for (int i = 0; i < 4 * n; ++i) {
+        for (int j = i + 1; j < 4 * n; ++j) {
+            const bool same_mesh = i / (2 * n) == j / (2 * n);
+            const bool same_part = i / n % 2 == j / n % 2;
+            const double weight = same_mesh && same_part ? 1.0 : same_mesh ? mesh : same_part ? part : 0.0;
+            if (weight > 0.0) edges.push_back({i, j, weight});
+        }
+    }
+    return graph(4 * n, edges);
+}
+
+class MeshBalance : public testing::TestWithParam<int> {};
+
+TEST_P(MeshBalance, TakesTauFromWhatTellsMeshesApartAndNothingFromWhatTellsParts) {
+    const Comm comm(MPI_COMM_WORLD);
+    const int n = GetParam();
+    const double mesh = 0.5;
+    const double part = 0.3;
+    const double degree = n - 1 + n * (mesh + part);
+    const double of_meshes = (n - 1 + n * (mesh - part)) / degree;
+    const double of_parts = (n - 1 - n * (mesh - part)) / degree;
+    const SparseRows s = two_by_two(n, mesh, part);
+    std::vector<int> mesh_of;
+    std::vector<int> part_of;
+    for (int i = 0; i < 4 * n; ++i) {
+        mesh_of.push_back(i / (2 * n));
+        part_of.push_back(i / n % 2);
+    }
+    const SpectralEmbedding plain = embed(comm, s, 2, 3);
+    EXPECT_NEAR(plain.eigenvalues[1], of_meshes, 1e-8);
+    EXPECT_TRUE(same_partition(cut_embedding(plain, 2, 4 * n), mesh_of));
+    SpectralOptions options;
+    options.mesh_balance = 0.3;
+    const SpectralEmbedding balanced = spectral_embedding(comm, owned_rows(comm, s), 2, 3, options, mesh_of);
+    EXPECT_NEAR(balanced.eigenvalues[0], 1.0, 1e-8);
+    EXPECT_NEAR(balanced.eigenvalues[1], of_parts, 1e-8);
+    EXPECT_NEAR(balanced.eigenvalues[2], of_meshes - 0.3, 1e-8);
+    EXPECT_TRUE(same_partition(cut_embedding(balanced, 2, 4 * n), part_of));
+}
+
+INSTANTIATE_TEST_SUITE_P(DenseAndSparse, MeshBalance, testing::Values(10, 50));
+
+TEST(MeshBalanceEdges, OfOneMeshChangesNothing) {
+    const Comm comm(MPI_COMM_WORLD);
+    const SparseRows s = owned_rows(comm, graph(200, testing_graphs::path_edges(200)));
+    SpectralOptions options;
+    options.mesh_balance = 0.9;
+    const SpectralEmbedding e = spectral_embedding(comm, s, 2, 4, options, std::vector<int>(200, 0));
+    for (int k = 0; k < 4; ++k) {
+        EXPECT_NEAR(e.eigenvalues[static_cast<std::size_t>(k)], std::cos(std::numbers::pi * k / 199.0), 1e-8);
+    }
+}
+
+TEST(MeshBalanceEdges, GoesNeitherWithAnOffsetNorWithoutMeshes) {
+    const Comm comm(MPI_COMM_WORLD);
+    const SparseRows s = owned_rows(comm, graph(40, testing_graphs::path_edges(40)));
+    SpectralOptions options;
+    options.mesh_balance = 0.3;
+    EXPECT_THROW(spectral_embedding(comm, s, 2, 4, options), AgreedError);
+    options.offset = 0.5;
+    EXPECT_THROW(spectral_embedding(comm, s, 2, 4, options, std::vector<int>(40, 0)), AgreedError);
+}
+
 TEST(GraphComponents, AreTheSameOnAnyNumberOfRanks) {
     const Comm comm(MPI_COMM_WORLD);
     std::vector<Edge> edges;

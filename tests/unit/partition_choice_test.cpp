@@ -61,5 +61,29 @@ TEST(PartitionChoice, PartsAreNumberedByShareThenByLowestPatch) {
               (std::vector<int>{0, 1, 1, 2, 0}));
 }
 
+TEST(PartitionChoice, EvennessIsZeroForEqualProportionsAndLeastForPartsThatAreWholeMeshes) {
+    Eigen::MatrixXd even(2, 3);
+    even << 0.3, 0.3, 0.3, 0.7, 0.7, 0.7;
+    EXPECT_NEAR(evenness(even), 0.0, 1e-15);
+    EXPECT_NEAR(evenness(Eigen::MatrixXd::Identity(4, 4)), -std::log(4.0), 1e-15);
+}
+
+TEST(PartitionChoice, PresenceCountsMeshesWithAQuarterOfThePartsMean) {
+    Eigen::MatrixXd shares(3, 4);
+    shares << 0.5, 0.4, 0.02, 0.0,  //
+        0.5, 0.6, 0.98, 1.0,        //
+        0.0, 0.0, 0.0, 0.0;
+    EXPECT_DOUBLE_EQ(presence(shares), 6.0 / 12.0);
+}
+
+TEST(PartitionChoice, AgreementIsTheMeanWithTheOthers) {
+    const std::vector<std::vector<int>> partitions = {{0, 0, 1, 1}, {1, 1, 0, 0}, {0, 1, 0, 1}};
+    const std::vector<double> mean = agreement(partitions, {1.0, 1.0, 1.0, 1.0});
+    EXPECT_NEAR(mean[0], 0.5, 1e-15);
+    EXPECT_NEAR(mean[1], 0.5, 1e-15);
+    EXPECT_NEAR(mean[2], 0.0, 1e-15);
+    EXPECT_EQ(agreement({{0, 1}}, {1.0, 1.0}), std::vector<double>{1.0});
+}
+
 }  // namespace
 }  // namespace coseg
