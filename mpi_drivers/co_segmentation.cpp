@@ -118,6 +118,11 @@ void warn_of_meshes(const Collection& collection, const StageLog& log) {
         log.warn("one mesh alone: it is cut by its own features, with nothing to agree with");
 }
 
+Verbosity verbosity_of(const RunOptions& options) {
+    if (options.quiet) return Verbosity::quiet;
+    return options.verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
 Collection describe_stage(const Comm& comm, const RunOptions& options, StageLog& log) {
     const std::vector<MeshEntry> entries = list_meshes(comm, options);
     log.begin("describe");
@@ -137,7 +142,7 @@ Collection describe_stage(const Comm& comm, const RunOptions& options, StageLog&
 void co_segment(const Comm& comm, const RunOptions& options,
                 const std::vector<std::pair<std::string, std::string>>& resolved,
                 const std::vector<std::string>& petsc_arguments) {
-    StageLog log(comm, options.quiet ? Verbosity::quiet : Verbosity::normal);
+    StageLog log(comm, verbosity_of(options), options.json_log ? LogForm::json : LogForm::text);
     const std::string unknown = unknown_petsc_option(petsc_arguments);
     if (!unknown.empty())
         throw AgreedError(ExitCode::usage, "after --: " + unknown + " is not an option of PETSc or SLEPc");

@@ -34,5 +34,8 @@ Command add_solve_command(CLI::App& parent);
 Command add_render_command(CLI::App& parent);
 Command add_cluster_command(CLI::App& parent);
 Command add_report_command(CLI::App& parent);
+Command add_export_command(CLI::App& parent);
+Command add_man_command(CLI::App& parent);
+Command add_completion_command(CLI::App& parent);
 
 }  // namespace coseg

@@ -14,9 +14,11 @@
 
 #include "mpi_drivers/command.hpp"
 #include "mpi_drivers/config_file.hpp"
+#include "mpi_drivers/help_pages.hpp"
 #include "mpi_drivers/self_launch.hpp"
 #include "mpi_drivers/version.hpp"
 #include "src/error.hpp"
+#include "src/spelling.hpp"
 
 namespace {
 
@@ -49,12 +51,17 @@ void refuse_unknown_command(const std::vector<coseg::Command>& commands,
                             const std::vector<std::string>& words) {
     if (words.empty() || words.front().starts_with("-")) return;
     const std::string& first = words.front();
-    std::string names;
+    std::string list;
+    std::vector<std::string> names;
     for (const coseg::Command& command : commands) {
         if (command.app->get_name() == first) return;
-        names += (names.empty() ? "" : ", ") + command.app->get_name();
+        names.push_back(command.app->get_name());
+        list += (list.empty() ? "" : ", ") + names.back();
     }
-    throw CLI::ParseError("'" + first + "' is not a command; the commands are " + names,
+    const std::string meant = coseg::nearest_word(first, names);
+    throw CLI::ParseError("'" + first + "' is not a command" +
+                              (meant.empty() ? "" : "; did you mean " + meant + "?") +
+                              (meant.empty() ? "; the" : " The") + " commands are " + list,
                           CLI::ExitCodes::ExtrasError);
 }
 
@@ -107,12 +114,17 @@ int parse_and_run(const Comm& world, int argc, char** argv) {
     app.require_subcommand(1);
     app.footer("Exit codes: 0 success, 1 internal error, 2 usage, 3 input, 4 output, 5 no convergence.");
     const std::vector<coseg::Command> commands = {
-        coseg::add_run_command(app),    coseg::add_score_command(app),  coseg::add_generate_command(app),
-        coseg::add_solve_command(app),  coseg::add_render_command(app), coseg::add_report_command(app),
-        coseg::add_cluster_command(app)};
+        coseg::add_run_command(app),       coseg::add_score_command(app),  coseg::add_generate_command(app),
+        coseg::add_solve_command(app),     coseg::add_render_command(app), coseg::add_report_command(app),
+        coseg::add_cluster_command(app),   coseg::add_export_command(app), coseg::add_man_command(app),
+        coseg::add_completion_command(app)};
     try {
         refuse_unknown_command(commands, arguments.own);
         std::vector<std::string> words = coseg::with_config_file(world, arguments.own);
+        for (const coseg::Command& command : commands) {
+            if (!words.empty() && command.app->get_name() == words.front())
+                coseg::refuse_unknown_options(*command.app, words);
+        }
         std::reverse(words.begin(), words.end());  // as CLI11 takes them
         app.parse(words);
     } catch (const CLI::ParseError& error) {

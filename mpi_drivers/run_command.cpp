@@ -3,6 +3,7 @@
 
 #include "mpi_drivers/co_segmentation.hpp"
 #include "mpi_drivers/command.hpp"
+#include "mpi_drivers/help_pages.hpp"
 #include "mpi_drivers/run_option_table.hpp"
 #include "mpi_drivers/run_options.hpp"
 
@@ -12,8 +13,10 @@ Command add_run_command(CLI::App& parent) {
     CLI::App* app = parent.add_subcommand("run", "Cut a collection of shapes into the same parts");
     const auto options = std::make_shared<RunOptions>();
     const auto table = std::make_shared<RunOptionTable>(*app, *options);
+    fold_help(*app, {"Options", "Input and output", "Picture"});
     app->footer(
-        "What follows -- goes to PETSc and SLEPc.\nExample: mpirun -n 4 coseg run --parts 4 --out result "
+        "More options, of patches, features, optimisation and partition: coseg run --help-all.\nWhat follows "
+        "-- goes to PETSc and SLEPc.\nExample: mpirun -n 4 coseg run --parts 4 --out result "
         "chairs/");
     return {app, [options, table](const Invocation& invocation) {
                 co_segment(invocation.world, *options, table->resolved(), invocation.petsc_arguments);

@@ -110,6 +110,9 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
     add_switch(app, "keep-features", options_.keep_features,
                "Also write DIR/features.h5, which coseg cluster reads", in_out_group);
     add_switch(app, "quiet", options_.quiet, "No progress lines; warnings and errors only", in_out_group);
+    add_switch(app, "verbose", options_.verbose, "Also say what the steps of a stage took", in_out_group);
+    add_switch(app, "json-log", options_.json_log, "Progress and warnings as one JSON object a line",
+               in_out_group);
     add(app, "seed", options_.seed, "Seed of all randomness; the same seed gives the same bytes",
         in_out_group);
     app.add_option("--ranks", ranks_, "Ranks of a run that is started without mpirun; 0: one for each core")

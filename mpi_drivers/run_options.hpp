@@ -17,6 +17,8 @@ struct RunOptions {
     bool force = false;
     bool strict = false;
     bool quiet = false;
+    bool verbose = false;
+    bool json_log = false;
     bool keep_features = false;
     std::uint64_t seed = 1;
 

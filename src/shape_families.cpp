@@ -12,6 +12,7 @@
 #include "src/isosurface.hpp"
 #include "src/isotropic_remesh.hpp"
 #include "src/label_cleaning.hpp"
+#include "src/spelling.hpp"
 
 namespace coseg {
 
@@ -47,21 +48,6 @@ const std::vector<Recipe>& recipes() {
         {{"octopus", "five to eight curling tentacles", {"head", "tentacle"}}, make_octopus},
     };
     return all;
-}
-
-int edit_distance(const std::string& a, const std::string& b) {
-    std::vector<int> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        int diagonal = row[0];
-        row[0] = static_cast<int>(i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const int replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
 }
 
 TriMesh extract(const ImplicitShape& shape) {

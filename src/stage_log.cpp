@@ -7,23 +7,55 @@
 
 namespace coseg {
 
-StageLog::StageLog(const Comm& comm, Verbosity verbosity)
-    : comm_(comm), verbosity_(verbosity), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+namespace {
+
+/// As JSON's strings have it.
+std::string quoted(const std::string& text) {
+    std::string safe = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') safe += '\\';
+        if (static_cast<unsigned char>(c) < 0x20) {
+            char code[8];
+            std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
+            safe += code;
+        } else {
+            safe += c;
+        }
+    }
+    return safe + "\"";
+}
+
+}  // namespace
+
+StageLog::StageLog(const Comm& comm, Verbosity verbosity, LogForm form)
+    : comm_(comm), verbosity_(verbosity), form_(form), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+bool StageLog::shows_bar() const {
+    return comm_.is_root() && is_terminal_ && verbosity_ != Verbosity::quiet && form_ == LogForm::text;
+}
 
 void StageLog::begin(const std::string& stage) {
     stage_ = stage;
     stage_start_ = Clock::now();
     own_seconds_ = -1.0;
     steps_.clear();
+    if (!shows_bar()) return;
+    std::fprintf(stderr, "\r\033[K%-14s ...", stage_.c_str());
+    std::fflush(stderr);
+    bar_shown_ = true;
 }
 
 void StageLog::progress(std::int64_t done, std::int64_t total) {
-    if (!comm_.is_root() || !is_terminal_ || verbosity_ == Verbosity::quiet || total <= 0) return;
+    if (!shows_bar() || total <= 0) return;
     constexpr int width = 30;
     const int filled = static_cast<int>(width * done / total);
-    std::fprintf(stderr, "\r%-14s [%-*.*s] %lld/%lld", stage_.c_str(), width, filled,
-                 "##############################", static_cast<long long>(done),
-                 static_cast<long long>(total));
+    std::fprintf(stderr, "\r\033[K%-14s [%-*.*s] %3lld %%  %lld/%lld", stage_.c_str(), width, filled,
+                 "##############################", static_cast<long long>(100 * done / total),
+                 static_cast<long long>(done), static_cast<long long>(total));
+    const double so_far = std::chrono::duration<double>(Clock::now() - stage_start_).count();
+    if (done > 0)
+        std::fprintf(stderr, "  %.0f s left",
+                     so_far * static_cast<double>(total - done) / static_cast<double>(done));
     std::fflush(stderr);
     bar_shown_ = true;
 }
@@ -55,12 +87,34 @@ void StageLog::end(const std::string& summary) {
     stages_.push_back(times);
     if (!comm_.is_root() || verbosity_ == Verbosity::quiet) return;
     clear_bar();
-    std::fprintf(stderr, "%-14s %7.2f s  %s\n", stage_.c_str(), times.seconds_wall, summary.c_str());
+    print(times, summary);
+}
+
+void StageLog::print(const StageTimes& times, const std::string& summary) const {
+    if (form_ == LogForm::json) {
+        std::string steps;
+        for (const StepTime& step : times.steps)
+            steps += (steps.empty() ? "" : ", ") + quoted(step.step) + ": " + std::to_string(step.seconds);
+        std::fprintf(
+            stderr,
+            "{\"event\": \"stage\", \"stage\": %s, \"seconds\": %.3f, \"summary\": %s, \"steps\": {%s}}\n",
+            quoted(times.stage).c_str(), times.seconds_wall, quoted(summary).c_str(), steps.c_str());
+    } else {
+        std::fprintf(stderr, "%-14s %7.2f s  %s\n", times.stage.c_str(), times.seconds_wall, summary.c_str());
+        for (const StepTime& step : times.steps) {
+            if (verbosity_ == Verbosity::verbose)
+                std::fprintf(stderr, "  %-16s %7.2f s of all ranks\n", step.step.c_str(), step.seconds);
+        }
+    }
     std::fflush(stderr);
 }
 
 void StageLog::warn(const std::string& sentence) const {
-    if (comm_.is_root()) std::fprintf(stderr, "coseg: warning: %s\n", sentence.c_str());
+    if (!comm_.is_root()) return;
+    if (form_ == LogForm::json)
+        std::fprintf(stderr, "{\"event\": \"warning\", \"sentence\": %s}\n", quoted(sentence).c_str());
+    else
+        std::fprintf(stderr, "%scoseg: warning: %s\n", bar_shown_ ? "\r\033[K" : "", sentence.c_str());
 }
 
 double StageLog::seconds_since_start() const {

@@ -9,7 +9,8 @@
 
 namespace coseg {
 
-enum class Verbosity { quiet, normal };
+enum class Verbosity { quiet, normal, verbose };
+enum class LogForm { text, json };
 
 struct StepTime {
     std::string step;
@@ -28,11 +29,13 @@ struct StageTimes {
 /// Lines go to standard error, so that standard output holds results only.
 class StageLog {
   public:
-    StageLog(const Comm& comm, Verbosity verbosity);
+    /// verbose: the steps of each stage under its line. json: one JSON object a line for every stage and warning, no bar.
+    StageLog(const Comm& comm, Verbosity verbosity, LogForm form = LogForm::text);
 
     void begin(const std::string& stage);
 
-    /// The share done, for a bar; shown on rank 0 where standard error is a terminal. Not collective.
+    /// The share done and the time left, in one line that is drawn over; shown on rank 0 where standard error is a
+    /// terminal. Not collective.
     void progress(std::int64_t done, std::int64_t total);
 
     /// Ends this rank's own work in the stage: what follows until end() is waiting. Not collective.
@@ -54,9 +57,12 @@ class StageLog {
   private:
     using Clock = std::chrono::steady_clock;
     void clear_bar();
+    [[nodiscard]] bool shows_bar() const;
+    void print(const StageTimes& times, const std::string& summary) const;
 
     const Comm& comm_;
     Verbosity verbosity_;
+    LogForm form_;
     bool is_terminal_;
     bool bar_shown_ = false;
     std::string stage_;

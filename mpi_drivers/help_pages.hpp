@@ -1,0 +1,24 @@
+#pragma once
+// What tells a user of options: --help that fits a screen, the word that was meant, the man page, completion in a shell. All
+// of it comes from the options that the commands declare.
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace coseg {
+
+/// --help shows the groups that every user needs and names the others, --help-all shows all. Applies to `app` alone.
+void fold_help(CLI::App& app, const std::vector<std::string>& groups_always_shown);
+
+/// Throws CLI::ParseError for the first word that looks like an option and is none of the command's, with the option that
+/// was probably meant. words: the command's own, it first.
+void refuse_unknown_options(const CLI::App& command, const std::vector<std::string>& words);
+
+/// A manual page in the language of man(7), section 1.
+std::string man_page(const CLI::App& program);
+
+/// A script for bash that completes commands, options, and the families of `coseg generate`.
+std::string bash_completion(const CLI::App& program, const std::vector<std::string>& families);
+
+}  // namespace coseg
