@@ -2,7 +2,9 @@
 // the working set where it fits.
 //
 //   mpirun -n P solver_bench [--sizes 1000,5000,20000] [--dense-up-to 1000] [--scope paper] [--lambda 1000]
-//   [--gap 1e-4]
+//   [--gap 1e-4] [--links 0]
+//
+// CPU seconds stand beside wall seconds, for machines that are shared.
 
 #include <mpi.h>
 #include <sys/resource.h>
@@ -12,6 +14,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "solvers/blas.hpp"
+#include "solvers/co_segmentation_cut.hpp"
+#include "solvers/mesh_links.hpp"
+#include "solvers/pass_clock.hpp"
+#include "solvers/petsc_session.hpp"
 #include "solvers/subspace_solver.hpp"
 #include "src/seeded_random.hpp"
 
@@ -26,6 +33,8 @@ struct Settings {
     std::string scope = "paper";
     double lambda = 1000.0;
     double gap = 1e-4;
+    int links = 0;
+    std::vector<int> clusters;
 };
 
 constexpr int features = 5;
@@ -61,6 +70,13 @@ coseg::SubspaceProblem generate(int size, const Settings& settings) {
         problem.features.push_back(std::move(x));
     }
     for (int j = 0; j < size; ++j) problem.mesh_of.push_back(j / patches_per_mesh);
+    const int meshes = problem.mesh_of.back() + 1;
+    std::vector<std::string> names;
+    for (int m = 0; m < meshes; ++m) names.push_back(std::to_string(m));
+    const int by_default = meshes <= coseg::meshes_linked_to_all ? meshes : coseg::default_links;
+    if (settings.scope == "mesh")
+        problem.allowed_meshes =
+            coseg::mesh_links(names, settings.links > 0 ? settings.links : by_default, 1);
     return problem;
 }
 
@@ -71,25 +87,105 @@ double peak_megabytes(const coseg::Comm& comm) {
     return static_cast<double>(coseg::all_sum(comm, static_cast<std::int64_t>(usage.ru_maxrss))) / 1024.0;
 }
 
-ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& problem, const Settings& settings,
-                     const std::string& solver) {
+/// CPU seconds of all ranks.
+double sum_over_ranks(const coseg::Comm& comm, double value) {
+    double sum = 0.0;
+    MPI_Allreduce(&value, &sum, 1, MPI_DOUBLE, MPI_SUM, comm.raw());
+    return sum;
+}
+
+/// What one core does in large single-precision matrix products of the features' length, in 1e9 operations per
+/// CPU second; all ranks measure at the same time, and the mean is given.
+double machine_gigaflops(const coseg::Comm& comm) {
+    constexpr int size = 2048;
+    constexpr int length = features * bins;
+    constexpr int repeats = 4;
+    const std::vector<float> a(static_cast<std::size_t>(size) * length, 0.5F);
+    std::vector<float> c(static_cast<std::size_t>(size) * size);
+    MPI_Barrier(comm.raw());
+    const double start = coseg::PassClock::cpu_seconds();
+    for (int r = 0; r < repeats; ++r) {
+        coseg::multiply_transposed(size, size, length, a.data(), length, a.data(), length, 0.0F, c.data(),
+                                   size);
+    }
+    const double seconds = coseg::PassClock::cpu_seconds() - start;
+    return sum_over_ranks(comm, 2e-9 * repeats * size * size * length / seconds) / comm.size();
+}
+
+/// The passes beside the machine's own matrix product, per core.
+ordered_json pass_figures(const coseg::Comm& comm, const coseg::SubspaceProblem& problem,
+                          const coseg::SolveResult& result, double machine) {
+    const double cpu = sum_over_ranks(comm, result.pass_cost.cpu_seconds);
+    const double wall = coseg::all_max(comm, result.pass_cost.wall_seconds);
+    const double communication = sum_over_ranks(comm, result.pass_cost.communication_seconds) / comm.size();
+    const double operations =
+        2.0 * features * bins * static_cast<double>(coseg::allowed_pair_count(problem)) * result.passes;
+    const double rate = 1e-9 * operations / cpu;
+    return {{"cpu_seconds_per_pass", cpu / result.passes},
+            {"wall_seconds_per_pass", wall / result.passes},
+            {"gigaflops_per_core", rate},
+            {"machine_gigaflops_per_core", machine},
+            {"share_of_machine", rate / machine},
+            {"communication_share", communication / wall}};
+}
+
+/// The normalised cut of the coefficients by formula (8), by one rank, as `coseg run` does it.
+ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& result,
+                         const std::vector<int>& mesh_of, int clusters) {
+    const std::vector<double> area(mesh_of.size(), 1.0);
+    const std::vector<coseg::PatchRelation> neighbors;
+    const std::vector<coseg::OverlapRelation> overlaps;
+    coseg::CutOptions options;
+    options.parts = clusters;
+    options.minima_rule = false;
+    options.starts = coseg::single_start(clusters, 0.0);
     MPI_Barrier(comm.raw());
     const double start = MPI_Wtime();
-    const coseg::SolveResult result = solve_subspace(comm, problem, {.gap = settings.gap, .solver = solver});
-    const double seconds = coseg::all_max(comm, MPI_Wtime() - start);
-    return {{"n", problem.size()},
-            {"solver", solver},
-            {"seconds", seconds},
-            {"relative_gap", result.relative_gap},
-            {"reason", to_string(result.reason)},
-            {"iterations", result.iterations},
-            {"passes", result.passes},
-            {"working_pairs", result.working_pairs},
-            {"nonzero_groups", result.nonzero_groups},
+    const double cpu_start = coseg::PassClock::cpu_seconds();
+    const coseg::CutResult cut =
+        coseg::co_segmentation_cut(comm, {result.coefficients, neighbors, overlaps, mesh_of, area}, options);
+    const double cpu = coseg::PassClock::cpu_seconds() - cpu_start;
+    return {{"clusters", clusters},
+            {"seconds", coseg::all_max(comm, MPI_Wtime() - start)},
+            {"cpu_seconds", coseg::all_max(comm, cpu)},
+            {"eigenvalues", cut.starts.front().eigenvalues},
+            {"set_aside", cut.starts.front().set_aside},
             {"peak_megabytes_so_far", peak_megabytes(comm)}};
 }
 
+ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& problem, const Settings& settings,
+                     const std::string& solver) {
+    const double machine = machine_gigaflops(comm);
+    MPI_Barrier(comm.raw());
+    const double start = MPI_Wtime();
+    const double cpu_start = coseg::PassClock::cpu_seconds();
+    const coseg::SolveResult result = solve_subspace(comm, problem, {.gap = settings.gap, .solver = solver});
+    const double seconds = coseg::all_max(comm, MPI_Wtime() - start);
+    const double cpu = sum_over_ranks(comm, coseg::PassClock::cpu_seconds() - cpu_start);
+    ordered_json json{{"n", problem.size()},
+                      {"solver", solver},
+                      {"seconds", seconds},
+                      {"cpu_seconds", cpu},
+                      {"objective", result.objective},
+                      {"lower_bound", result.lower_bound},
+                      {"allowed_pairs", coseg::allowed_pair_count(problem)},
+                      {"relative_gap", result.relative_gap},
+                      {"reason", to_string(result.reason)},
+                      {"iterations", result.iterations},
+                      {"passes", result.passes},
+                      {"working_pairs", result.working_pairs},
+                      {"nonzero_groups", result.nonzero_groups},
+                      {"peak_megabytes_so_far", peak_megabytes(comm)}};
+    if (settings.scope == "paper" && solver == "working-set") {
+        json["pass"] = pass_figures(comm, problem, result, machine);
+    }
+    for (const int clusters : settings.clusters)
+        json["cuts"].push_back(cut_figures(comm, result, problem.mesh_of, clusters));
+    return json;
+}
+
 void run(const Settings& settings) {
+    const coseg::PetscSession session({});
     const coseg::Comm comm(MPI_COMM_WORLD);
     ordered_json report{{"version", COSEG_VERSION},      {"build", COSEG_BUILD_TYPE},
                         {"ranks", comm.size()},          {"scope", settings.scope},
@@ -117,6 +213,11 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--scope", settings.scope, "paper or mesh")->check(CLI::IsMember({"paper", "mesh"}));
     app.add_option("--lambda", settings.lambda, "Penalty of the scope")->capture_default_str();
+    app.add_option("--links", settings.links,
+                   "Scope mesh: meshes in which a patch may have matches; 0 is the default rule")
+        ->capture_default_str();
+    app.add_option("--clusters", settings.clusters, "Also cut the answer into so many clusters")
+        ->delimiter(',');
     app.add_option("--gap", settings.gap, "Relative gap")->capture_default_str();
     int status = 0;
     try {

@@ -7,29 +7,37 @@
 
 #include "solvers/blas.hpp"
 #include "solvers/coefficients.hpp"
+#include "solvers/excess_squares.hpp"
+#include "solvers/pass_clock.hpp"
 
 namespace coseg {
 
 namespace {
 
-constexpr int chunk_rows = 1024;
+constexpr int chunk_rows = 256;
+/// Columns of a matrix product: four coefficient tiles. Products always have this width, whatever of it this rank
+/// owns, so that their bits are the same on any number of ranks; twice as fast as one tile at a time.
+constexpr int product_columns = 4 * static_cast<int>(coefficient_tile);
+constexpr int scan_block = 64;
 constexpr double single_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 /// Pairs whose norm exceeds its limit by less than this many rounding errors are looked at again in double.
-constexpr double doubtful = 16.0;
+constexpr double doubtful = 4.0;
 
 }  // namespace
 
-/// The columns at hand, at most coefficient_tile, and the scores of one chunk of rows.
+/// The columns at hand, whole coefficient tiles within one product, and the scores of one chunk of rows.
 struct AllPairsPass::Tile {
     int first = 0;        ///< column
     int first_local = 0;  ///< the same, counted from this rank's first
     int width = 0;
+    int shift = 0;  ///< of the first column within its product
     std::span<const ColumnFit> fits;
     std::vector<std::size_t> next_working;  ///< per column: the first working row not yet passed
     Eigen::MatrixXd reconstruction;         ///< D x width
-    Eigen::MatrixXf duals;                  ///< u, D x width
+    Eigen::MatrixXd exact_duals;            ///< u, D x width
+    Eigen::MatrixXf duals;                  ///< u, D x product_columns; 0 for the columns of others
     Eigen::MatrixXd error;                  ///< H x width: of a score
-    std::vector<float> scores;              ///< H blocks of chunk_rows x width
+    std::vector<float> scores;              ///< H blocks of chunk_rows x product_columns
     std::vector<float> squares;             ///< of one column: ||(score + error - price)_+||^2
 };
 
@@ -40,8 +48,7 @@ AllPairsPass::AllPairsPass(const Comm& comm, const SubspaceProblem& problem, con
       limit2_(static_cast<float>(problem.alpha * problem.alpha * (1.0 - 64.0 * single_rounding))),
       single_columns_(stack.columns.cast<float>()),
       low_prices_(static_cast<std::size_t>(stack.features) * static_cast<std::size_t>(stack.size)),
-      pair_scores_(static_cast<std::size_t>(stack.features)),
-      residual_(static_cast<std::size_t>(stack.dimension)) {
+      pair_scores_(static_cast<std::size_t>(stack.features)) {
     for (int h = 0; h < stack.features; ++h) {
         double largest = 0.0;
         for (Eigen::Index i = 0; i < stack.size; ++i) largest = std::max(largest, stack.norm(h, i));
@@ -102,12 +109,15 @@ AllPairsPass::Tile AllPairsPass::start_tile(const WorkingSet& working, std::int6
     Tile tile;
     tile.first = static_cast<int>(working.columns.begin + begin);
     tile.first_local = static_cast<int>(begin);
-    tile.width = static_cast<int>(std::min(coefficient_tile, working.columns.size() - begin));
+    tile.shift = tile.first % product_columns;
+    tile.width = static_cast<int>(
+        std::min<std::int64_t>(product_columns - tile.shift, working.columns.size() - begin));
     tile.fits = std::span(working.fits)
                     .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(tile.width));
     tile.next_working.assign(tile.fits.size(), 0);
     tile.reconstruction.resize(stack_.dimension, tile.width);
-    tile.duals.resize(stack_.dimension, tile.width);
+    tile.exact_duals.resize(stack_.dimension, tile.width);
+    tile.duals = Eigen::MatrixXf::Zero(stack_.dimension, product_columns);
     tile.error.resize(stack_.features, tile.width);
     for (int c = 0; c < tile.width; ++c) {
         const ColumnFit& fit = tile.fits[static_cast<std::size_t>(c)];
@@ -117,14 +127,15 @@ AllPairsPass::Tile AllPairsPass::start_tile(const WorkingSet& working, std::int6
             double squares = 0.0;
             for (int k = from; k < from + stack_.rows_of(h); ++k) {
                 const double u = 2.0 * (stack_.columns(k, tile.first + c) - tile.reconstruction(k, c));
-                tile.duals(k, c) = static_cast<float>(u);
+                tile.exact_duals(k, c) = u;
+                tile.duals(k, tile.shift + c) = static_cast<float>(u);
                 squares += u * u;
             }
             tile.error(h, c) = single_rounding * (stack_.dimension + 8) * std::sqrt(squares) *
                                largest_norm_[static_cast<std::size_t>(h)];
         }
     }
-    tile.scores.resize(static_cast<std::size_t>(chunk_rows * tile.width * stack_.features));
+    tile.scores.resize(static_cast<std::size_t>(chunk_rows * product_columns * stack_.features));
     tile.squares.resize(chunk_rows);
     return tile;
 }
@@ -134,10 +145,10 @@ void AllPairsPass::score_chunk(Tile& tile, int begin, int end) const {
     const int rows = stack_.dimension;
     for (int h = 0; h < stack_.features; ++h) {
         const int from = stack_.offset[static_cast<std::size_t>(h)];
-        multiply_transposed(end - begin, tile.width, stack_.rows_of(h),
+        multiply_transposed(end - begin, product_columns, stack_.rows_of(h),
                             single_columns_.data() + static_cast<std::int64_t>(begin) * rows + from, rows,
                             tile.duals.data() + from, rows, 0.0F,
-                            tile.scores.data() + static_cast<std::int64_t>(h) * chunk_rows * tile.width,
+                            tile.scores.data() + static_cast<std::int64_t>(h) * chunk_rows * product_columns,
                             chunk_rows);
     }
 }
@@ -149,13 +160,11 @@ void AllPairsPass::sum_squares(Tile& tile, int column, int begin, int end) const
     std::fill_n(squares, count, 0.0F);
     for (int h = 0; h < stack_.features; ++h) {
         const float* score =
-            tile.scores.data() + (static_cast<std::int64_t>(h) * tile.width + column) * chunk_rows;
+            tile.scores.data() +
+            (static_cast<std::int64_t>(h) * product_columns + tile.shift + column) * chunk_rows;
         const float* price = low_prices_.data() + static_cast<std::int64_t>(h) * stack_.size + begin;
         const auto error = static_cast<float>(tile.error(h, column));
-        for (std::size_t p = 0; p < count; ++p) {
-            const float excess = std::max(score[p] + error - price[p], 0.0F);
-            squares[p] += excess * excess;
-        }
+        add_excess_squares(score, price, error, count, squares);
     }
 }
 
@@ -182,28 +191,48 @@ void AllPairsPass::keep(const Tile& tile, int column, int row, double norm) {
         static_cast<float>(row_best[kept - 1].score * row_best[kept - 1].score);
 }
 
+/// A column's pair with itself is none.
+bool AllPairsPass::any_other_above(const float* squares, int begin, int end, int column) const {
+    if (any_violation_) return true;
+    for (int i = begin; i < end; ++i) {
+        if (squares[i - begin] > limit2_ && i != column) return true;
+    }
+    return false;
+}
+
 /// W = 0: nothing is in the working set, and no bound is sought but that of W = 0.
 void AllPairsPass::scan_first(const Tile& tile, int column, int begin, int end) {
     const Candidate* column_best =
         column_best_.data() + static_cast<std::int64_t>(tile.first_local + column) * kept;
-    for (int i = begin; i < end; ++i) {
-        const float square = tile.squares[static_cast<std::size_t>(i - begin)];
-        if (square <= limit2_ || i == tile.first + column) continue;
-        any_violation_ = true;
+    // Rounded down, so that what the exact comparison keeps is looked at.
+    const auto least_square = [&] {
         const double least = column_best[kept - 1].score;
-        if (square < row_least_[static_cast<std::size_t>(i)] && static_cast<double>(square) < least * least)
+        return static_cast<float>(least * least * (1.0 - 4.0 * single_rounding));
+    };
+    for (int block = begin; block < end; block += scan_block) {
+        const int stop = std::min(block + scan_block, end);
+        const float* squares = tile.squares.data() + (block - begin);
+        if (!any_above(squares, limit2_, row_least_.data() + block, least_square(),
+                       static_cast<std::size_t>(stop - block))) {
+            any_violation_ = any_violation_ || any_other_above(squares, block, stop, tile.first + column);
             continue;
-        keep(tile, column, i, std::sqrt(static_cast<double>(square)));
+        }
+        for (int i = block; i < stop; ++i) {
+            const float square = squares[i - block];
+            if (square <= limit2_ || i == tile.first + column) continue;
+            any_violation_ = true;
+            const double least = column_best[kept - 1].score;
+            if (square < row_least_[static_cast<std::size_t>(i)] &&
+                static_cast<double>(square) < least * least)
+                continue;
+            keep(tile, column, i, std::sqrt(static_cast<double>(square)));
+        }
     }
 }
 
 /// Fills pair_scores_ in double.
 void AllPairsPass::exact_scores(const Tile& tile, int column, int row) {
-    for (int k = 0; k < stack_.dimension; ++k) {
-        residual_[static_cast<std::size_t>(k)] =
-            2.0 * (stack_.columns(k, tile.first + column) - tile.reconstruction(k, column));
-    }
-    feature_products(stack_, row, residual_.data(), pair_scores_.data());
+    feature_products(stack_, row, tile.exact_duals.col(column).data(), pair_scores_.data());
 }
 
 /// A pair that may violate its limit, going by its scores in single precision.
@@ -211,7 +240,8 @@ void AllPairsPass::inspect_pair(const Tile& tile, int column, int row, int begin
     const auto features = pair_scores_.size();
     double squares = 0.0;
     for (std::size_t h = 0; h < features; ++h) {
-        const std::size_t block = h * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(column);
+        const std::size_t block =
+            h * static_cast<std::size_t>(product_columns) + static_cast<std::size_t>(tile.shift + column);
         pair_scores_[h] =
             static_cast<double>(tile.scores[block * chunk_rows + static_cast<std::size_t>(row - begin)]);
         const double price = 2.0 * problem_.lambda * row_sums_[static_cast<std::size_t>(row) * features + h];
@@ -230,12 +260,16 @@ void AllPairsPass::inspect_pair(const Tile& tile, int column, int row, int begin
 void AllPairsPass::scan_column(Tile& tile, int column, int begin, int end, PaperDualBound& bound) {
     const std::vector<int>& working = tile.fits[static_cast<std::size_t>(column)].rows;
     std::size_t& next = tile.next_working[static_cast<std::size_t>(column)];
-    for (int i = begin; i < end; ++i) {
-        if (tile.squares[static_cast<std::size_t>(i - begin)] <= limit2_ || i == tile.first + column)
-            continue;
-        while (next < working.size() && working[next] < i) ++next;
-        if (next < working.size() && working[next] == i) continue;
-        inspect_pair(tile, column, i, begin, bound);
+    for (int block = begin; block < end; block += scan_block) {
+        const int stop = std::min(block + scan_block, end);
+        const float* squares = tile.squares.data() + (block - begin);
+        if (!any_above(squares, limit2_, static_cast<std::size_t>(stop - block))) continue;
+        for (int i = block; i < stop; ++i) {
+            if (squares[i - block] <= limit2_ || i == tile.first + column) continue;
+            while (next < working.size() && working[next] < i) ++next;
+            if (next < working.size() && working[next] == i) continue;
+            inspect_pair(tile, column, i, begin, bound);
+        }
     }
 }
 
@@ -249,9 +283,11 @@ void AllPairsPass::check_working_pairs(const Tile& tile, PaperDualBound& bound) 
 }
 
 PassFindings AllPairsPass::first(const WorkingSet& working) {
+    const PassClock clock(cost_);
     start(working, std::vector<double>(low_prices_.size(), 0.0));
-    for (std::int64_t begin = 0; begin < working.columns.size(); begin += coefficient_tile) {
+    for (std::int64_t begin = 0; begin < working.columns.size();) {
         Tile tile = start_tile(working, begin);
+        begin += tile.width;
         score_tile(tile, [&](int c, int from, int to) { scan_first(tile, c, from, to); });
     }
     const bool optimal = all_sum(comm_, std::int64_t{any_violation_ ? 1 : 0}) == 0;
@@ -260,20 +296,27 @@ PassFindings AllPairsPass::first(const WorkingSet& working) {
 }
 
 PassFindings AllPairsPass::run(const WorkingSet& working, const std::vector<double>& row_sums) {
+    const PassClock clock(cost_);
     start(working, row_sums);
     PaperDualBound bound(stack_, problem_.alpha, problem_.beta, problem_.lambda, row_sums_);
-    for (std::int64_t begin = 0; begin < working.columns.size(); begin += coefficient_tile) {
+    for (std::int64_t begin = 0; begin < working.columns.size();) {
         Tile tile = start_tile(working, begin);
+        begin += tile.width;
         bound.begin_tile(tile.first, tile.width, tile.reconstruction.data());
         check_working_pairs(tile, bound);
         score_tile(tile, [&](int c, int from, int to) { scan_column(tile, c, from, to, bound); });
         bound.end_tile();
     }
-    return collect(working, bound.finish(comm_));
+    const double before = MPI_Wtime();
+    const double lower_bound = bound.finish(comm_);
+    cost_.communication_seconds += MPI_Wtime() - before;
+    return collect(working, lower_bound);
 }
 
 PassFindings AllPairsPass::collect(const WorkingSet& working, double lower_bound) {
+    const double before = MPI_Wtime();
     merge_row_candidates();
+    cost_.communication_seconds += MPI_Wtime() - before;
     PassFindings findings;
     findings.lower_bound = lower_bound;
     findings.entering.resize(working.fits.size());

@@ -9,6 +9,7 @@
 #include "solvers/dual_bound.hpp"
 #include "solvers/feature_stack.hpp"
 #include "solvers/subspace_problem.hpp"
+#include "solvers/subspace_solver.hpp"
 #include "solvers/working_set_model.hpp"
 #include "src/comm.hpp"
 
@@ -37,6 +38,8 @@ class AllPairsPass {
     /// first.
     PassFindings run(const WorkingSet& working, const std::vector<double>& row_sums);
 
+    [[nodiscard]] const PassCost& cost() const noexcept { return cost_; }
+
   private:
     struct Candidate {
         double score = 0.0;
@@ -55,6 +58,7 @@ class AllPairsPass {
     void score_chunk(Tile& tile, int begin, int end) const;
     void sum_squares(Tile& tile, int column, int begin, int end) const;
     void check_working_pairs(const Tile& tile, PaperDualBound& bound);
+    [[nodiscard]] bool any_other_above(const float* squares, int begin, int end, int column) const;
     void scan_first(const Tile& tile, int column, int begin, int end);
     void scan_column(Tile& tile, int column, int begin, int end, PaperDualBound& bound);
     void inspect_pair(const Tile& tile, int column, int row, int begin, PaperDualBound& bound);
@@ -75,8 +79,8 @@ class AllPairsPass {
     std::vector<Candidate> column_best_;  ///< of the owned columns
     std::vector<float> row_least_;        ///< square of the least score kept of each row
     std::vector<double> pair_scores_;     ///< of the pair at hand
-    std::vector<double> residual_;        ///< u of the column last scored exactly
     bool any_violation_ = false;
+    PassCost cost_;
 };
 
 }  // namespace coseg

@@ -362,7 +362,9 @@ CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const Cut
         return result;
     }
     const Comm self(MPI_COMM_SELF);
-    const bool one_rank = static_cast<std::int64_t>(input.mesh_of.size()) <= options.one_rank_patches;
+    // At most: an entry and its transpose may fall together, never apart.
+    const std::int64_t entries = 2 * all_sum(comm, static_cast<std::int64_t>(input.coefficients.rows.size()));
+    const bool one_rank = entries <= options.one_rank_entries;
     const CutTerms terms = cut_terms(comm, self, one_rank, input, options);
     CutOptions attempts = options;
     attempts.starts.insert(attempts.starts.end(), options.reserve.begin(), options.reserve.end());

@@ -74,7 +74,8 @@ struct CutOptions {
     double score_weight = 1.5;      ///< adjacency and overlap of the graph that scores
     ChoiceWeights choice;
     ReserveRule reserve_rule;
-    std::int64_t one_rank_patches = 20000;  ///< up to so many patches a start is one rank's work
+    /// Up to so many entries of the base affinity a start is one rank's work, which takes about 100 bytes an entry.
+    std::int64_t one_rank_entries = 60'000'000;
 };
 
 /// What came of a start.
@@ -103,7 +104,7 @@ struct CutResult {
 
 /// Cuts the patches of all meshes into parts.
 ///
-/// Up to one_rank_patches the affinity is gathered on every rank, the different graphs are dealt over the
+/// Up to one_rank_entries the affinity is gathered on every rank, the different graphs are dealt over the
 /// ranks and each is cut by one rank alone, so that the result has the same bytes on any number of ranks.
 /// Above, all ranks share each eigenvalue problem; labels may then differ between rank counts where patches
 /// lie within rounding of a boundary.

@@ -89,9 +89,11 @@ void PaperDualBound::end_tile() {
                 shifted += (*z + half) * (*z + half);
             }
         }
+        if ((c + 1) % coefficient_tile != 0 && c + 1 != width_) continue;
+        sums_.add_scalar(reconstruction_sum, squares);
+        sums_.add_scalar(shifted_sum, shifted);
+        squares = shifted = 0.0;
     }
-    sums_.add_scalar(reconstruction_sum, squares);
-    sums_.add_scalar(shifted_sum, shifted);
 }
 
 double PaperDualBound::raised_cost(const Comm& comm) {

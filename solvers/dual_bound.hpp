@@ -29,7 +29,8 @@ class PaperDualBound {
     PaperDualBound(const FeatureStack& stack, double alpha, double beta, double lambda,
                    const std::vector<double>& row_sums);
 
-    /// The columns first .. first + width, with their z: D x width values, which must live until end_tile.
+    /// The columns first .. first + width, a run of whole coefficient tiles, with their z: D x width values, which
+    /// must live until end_tile.
     void begin_tile(int first, int width, const double* reconstruction);
 
     /// The pair of row i and the tile's column c (counted from its first), i != first + c: `scores` are
@@ -38,7 +39,7 @@ class PaperDualBound {
     /// to satisfy its limit, rounding included.
     double check_pair(int c, int i, const double* scores, double rounding);
 
-    /// A tile is one addend, so that bits do not depend on the ranks.
+    /// A coefficient tile is one addend, so that bits do not depend on the ranks.
     void end_tile();
 
     /// The better of both bounds. Collective.

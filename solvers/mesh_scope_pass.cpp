@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "solvers/blas.hpp"
+#include "solvers/excess_squares.hpp"
 
 namespace coseg {
 
@@ -131,10 +132,7 @@ void MeshScopePass::score_rows(Survey& survey, const Scores<Real>& scores) {
     squares.assign(count, Real{0});
     for (int h = 0; h < stack_.features; ++h) {
         const Real* score = scores.values + h * scores.stride;
-        for (std::size_t p = 0; p < count; ++p) {
-            const Real excess = std::max(score[p] - beta, Real{0});
-            squares[p] += excess * excess;
-        }
+        add_excess_squares(score, beta, count, squares.data());
     }
     for (int i = scores.begin; i < scores.end;) {
         const int g = meshes_.group_of[static_cast<std::size_t>(i)];

@@ -18,6 +18,13 @@ struct SolveOptions {
 
 enum class StopReason { gap_reached, residual_reached, iteration_limit, time_limit };
 
+/// What this rank's looks at all pairs have cost.
+struct PassCost {
+    double cpu_seconds = 0.0;
+    double wall_seconds = 0.0;           ///< the following included
+    double communication_seconds = 0.0;  ///< in collective calls, waiting for other ranks included
+};
+
 struct SolveResult {
     SparseCoefficients coefficients;
     double objective = 0.0;          ///< at the coefficients; an upper bound of the optimum
@@ -32,6 +39,7 @@ struct SolveResult {
     std::int64_t working_pairs = 0;   ///< pairs that the last working set held, all ranks
     std::int64_t nonzero_groups = 0;  ///< pairs with a value > 0, all ranks
     StopReason reason = StopReason::gap_reached;
+    PassCost pass_cost;  ///< scope paper by working sets, and scope mesh; not the same on all ranks
 };
 
 /// Solves the problem to `options.gap`. The problem must be the same on every rank; the answer has the same

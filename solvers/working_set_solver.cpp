@@ -132,6 +132,7 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
         findings = pass.run(working, progress.row_sums);
         ++result.passes;
     }
+    result.pass_cost = pass.cost();
     result.coefficients = nonzero_pairs(stack, working);
     result.working_pairs = all_sum(comm, working.pair_count());
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));

@@ -96,7 +96,7 @@ TEST_P(CoSegmentationCut, AllRanksTogetherFindWhatOneFindsAlone) {
     options.starts = {{{2.0, 2.0}, 2 * parts, {2.0, 2.0}, MergeRule::normalized_cut}};
     options.starts.push_back(single_start(parts, 5.0)[0]);
     const CutResult dealt = cut(comm, toy, options);
-    options.one_rank_patches = 0;
+    options.one_rank_entries = 0;
     const CutResult together = cut(comm, toy, options);
     EXPECT_EQ(together.part_of_patch, dealt.part_of_patch);
     for (std::size_t k = 0; k < dealt.starts.size(); ++k) {

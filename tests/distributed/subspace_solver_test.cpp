@@ -48,7 +48,7 @@ SolveResult expect_same_on_any_ranks(const SubspaceProblem& problem, const Solve
 }
 
 SolveOptions precise(const std::string& solver, double gap = 1e-8) {
-    return {.gap = gap, .max_iterations = 100000, .max_seconds = 60.0, .solver = solver};
+    return {.gap = gap, .max_iterations = 100000, .max_seconds = 3600.0, .solver = solver};
 }
 
 TEST(SubspaceSolver, PaperScopeDense) {

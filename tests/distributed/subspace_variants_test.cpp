@@ -12,7 +12,7 @@
 namespace coseg {
 namespace {
 
-const SolveOptions precise{.gap = 1e-6, .max_iterations = 100000, .max_seconds = 60.0, .solver = "auto"};
+const SolveOptions precise{.gap = 1e-6, .max_iterations = 100000, .max_seconds = 3600.0, .solver = "auto"};
 
 void expect_same(const SolveResult& shared, const SolveResult& alone) {
     EXPECT_EQ(shared.objective, alone.objective);
@@ -37,7 +37,7 @@ SolveResult solve_both_ways(const SubspaceProblem& problem, SubspaceVariant vari
 }
 
 SubspaceProblem sample() {
-    SubspaceProblem problem = random_subspace_problem(3, 8, 40, 8, 51);
+    SubspaceProblem problem = random_subspace_problem(3, 8, 70, 10, 51);
     problem.lambda = 0.5;
     problem.alpha = 0.05;
     return problem;

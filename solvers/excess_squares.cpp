@@ -1,0 +1,60 @@
+#include "solvers/excess_squares.hpp"
+
+#include <algorithm>
+
+// Distributed binaries are built for the least of the machines; gcc then picks the widest form at run time. The
+// sanitizers cannot instrument that choice.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#define COSEG_FOR_EVERY_WIDTH __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define COSEG_FOR_EVERY_WIDTH
+#endif
+
+namespace coseg {
+
+COSEG_FOR_EVERY_WIDTH
+void add_excess_squares(const float* scores, const float* prices, float error, std::size_t count,
+                        float* squares) {
+    for (std::size_t p = 0; p < count; ++p) {
+        const float excess = std::max(scores[p] + error - prices[p], 0.0F);
+        squares[p] += excess * excess;
+    }
+}
+
+COSEG_FOR_EVERY_WIDTH
+void add_excess_squares(const float* scores, float price, std::size_t count, float* squares) {
+    for (std::size_t p = 0; p < count; ++p) {
+        const float excess = std::max(scores[p] - price, 0.0F);
+        squares[p] += excess * excess;
+    }
+}
+
+COSEG_FOR_EVERY_WIDTH
+void add_excess_squares(const double* scores, double price, std::size_t count, double* squares) {
+    for (std::size_t p = 0; p < count; ++p) {
+        const double excess = std::max(scores[p] - price, 0.0);
+        squares[p] += excess * excess;
+    }
+}
+
+COSEG_FOR_EVERY_WIDTH
+bool any_above(const float* values, float limit, std::size_t count) {
+    int hits = 0;
+    for (std::size_t p = 0; p < count; ++p) hits |= values[p] > limit ? 1 : 0;
+    return hits != 0;
+}
+
+COSEG_FOR_EVERY_WIDTH
+bool any_above(const float* values, float limit, const float* own_bounds, float common_bound,
+               std::size_t count) {
+    int hits = 0;
+    for (std::size_t p = 0; p < count; ++p) {
+        const int above = values[p] > limit ? 1 : 0;
+        const int own = values[p] >= own_bounds[p] ? 1 : 0;
+        const int common = values[p] >= common_bound ? 1 : 0;
+        hits |= above & (own | common);
+    }
+    return hits != 0;
+}
+
+}  // namespace coseg
