@@ -38,7 +38,8 @@ TEST(DualBound, NeverExceedsTheOptimumFromAnyWeights) {
     for (const double lambda : {0.0, 0.01, 1.0, 1000.0}) {
         SubspaceProblem problem = random_subspace_problem(2, 9, 45, 5, 61);
         problem.lambda = lambda;
-        const SolveResult best = solve_subspace(world, problem, {.gap = 1e-7, .max_seconds = 20.0});
+        // By each rank alone: the truth takes many iterations, and waiting for a busy machine each time.
+        const SolveResult best = solve_subspace(Comm(MPI_COMM_SELF), problem, {.gap = 1e-7});
         ASSERT_LE(best.relative_gap, 1e-7);
         const FeatureStack stack = stack_features(problem);
         AllPairsPass pass(world, problem, stack);
