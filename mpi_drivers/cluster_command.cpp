@@ -158,6 +158,11 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
     app.add_option("--links", settings.links,
                    "Scope mesh: other groups in which an item may have matches, a seeded sample; 0 is all")
         ->check(CLI::Range(0, 1 << 30))
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                return text == "1" ? std::string("a group needs at least 2") : std::string();
+            },
+            ""))
         ->capture_default_str();
     app.add_option("--seed", settings.seed, "Of the sample of --links")->capture_default_str();
     for (const auto& [name, value, help] :
