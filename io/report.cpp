@@ -97,7 +97,9 @@ Json of_features(const Report& report) {
     }
     return {{"ranges", ranges},
             {"strengths", strengths},
-            {"pairs_by_feature_count", report.pairs_by_feature_count}};
+            {"pairs_by_feature_count", report.pairs_by_feature_count},
+            {"inside_part", report.inside_part},
+            {"coefficient_blocks", report.coefficient_blocks}};
 }
 
 }  // namespace

@@ -93,6 +93,10 @@ struct Report {
     double reserve_agreement = 0.0;
     std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
     std::vector<ReportStrength> feature_strengths;
+    std::vector<double>
+        inside_part;  ///< per part: share of the coefficients of its columns that stay inside it
+    std::vector<std::vector<double>>
+        coefficient_blocks;  ///< parts x parts: share of all coefficients, row x column
     std::vector<std::int64_t> pairs_by_feature_count;  ///< pairs with 1, 2, ... nonzero features
 };
 

@@ -1,5 +1,7 @@
 #include "mpi_drivers/cut_stage.hpp"
 
+#include "solvers/diffusion_clusters.hpp"
+
 namespace coseg {
 
 std::vector<PatchRelation> local_neighbors(const Collection& collection) {
@@ -55,9 +57,14 @@ CutOptions cut_options(const RunOptions& options) {
 
 CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                          const SparseCoefficients& coefficients, const RunOptions& options) {
+    const std::vector<int> mesh_of = collection.numbering.mesh_of();
+    if (options.partition == "diffusion") {
+        const DiffusionOptions diffusion{.parts = options.parts, .seed = options.seed};
+        return described_partition(diffusion_clusters(comm, features.histograms, diffusion), options.parts,
+                                   mesh_of, features.patch_area);
+    }
     const std::vector<PatchRelation> neighbors = local_neighbors(collection);
     const std::vector<OverlapRelation> overlaps = local_overlaps(collection);
-    const std::vector<int> mesh_of = collection.numbering.mesh_of();
     return co_segmentation_cut(comm, {coefficients, neighbors, overlaps, mesh_of, features.patch_area},
                                cut_options(options));
 }

@@ -81,6 +81,8 @@ void add_strengths(Report& report, const FeatureStrength& strength, const RunOut
         for (const std::vector<double>& part : strength.of_part) row.within_part.push_back(part[h]);
         report.feature_strengths.push_back(std::move(row));
     }
+    report.inside_part = strength.inside;
+    report.coefficient_blocks = strength.blocks;
     // Entry 0 of the counts is by definition empty: a stored pair has a nonzero feature.
     report.pairs_by_feature_count.assign(strength.pairs_by_features.begin() + 1,
                                          strength.pairs_by_features.end());

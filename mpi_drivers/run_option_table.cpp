@@ -90,8 +90,10 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
     printers_.emplace_back("preset", [this] { return options_.preset; });
     app.add_option_function<std::string>(
            "--preset", [this](const std::string& preset) { options_ = preset_options(preset); },
-           "default, or paper: the literal text of the paper; other options override it")
-        ->check(CLI::IsMember({"default", "paper"}))
+           "default; paper: its literal text; or a baseline: single:FEATURE, independent, concatenated "
+           "(features), "
+           "descriptor-space (Sidi et al. 2011); other options override it")
+        ->check(CLI::IsMember(preset_names()))
         ->default_str("default")
         ->group(in_out_group);
     app.add_option("input", options_.inputs,
@@ -226,6 +228,12 @@ void RunOptionTable::add_partition(CLI::App& app) {
         ->check(CLI::Range(0.0, 1.0));
     add_switch(app, "choose", options_.choose,
                "Try several adjacency weights and cluster numbers, choose without labels", partition_group);
+    add(app, "partition", options_.partition,
+        "spectral (normalised cut of the affinity), or diffusion (patches clustered by their descriptors "
+        "alone: no "
+        "coefficients, adjacency or choice)",
+        partition_group)
+        ->check(CLI::IsMember({"spectral", "diffusion"}));
     add(app, "refine", options_.refine,
         "Boundaries between parts moved into creases by fuzzy cuts in a strip of 10 triangles: none, fuzzy "
         "(Katz and "

@@ -55,12 +55,17 @@ struct RunOptions {
     double adjacency = 5.0;
     double overlap = 1.0;
     double mesh_balance = 0.3;
+    std::string partition = "spectral";
     bool choose = true;
     std::string refine = "held";
     bool reserve = true;
 };
 
-/// The options that a preset stands for: "default", or "paper" for the literal text of Hu, Fan and Liu (2012).
+/// The names of the presets, in the order of --help.
+std::vector<std::string> preset_names();
+
+/// The options that a preset stands for: "default"; "paper" for the literal text of Hu, Fan and Liu (2012); and what the
+/// two are to be compared with: "single:FEATURE", "independent", "concatenated", "descriptor-space".
 /// Options given on the command line or in the configuration file override the preset's.
 RunOptions preset_options(const std::string& preset);
 

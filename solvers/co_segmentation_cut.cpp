@@ -313,9 +313,10 @@ std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::
     return counts;
 }
 
-void describe_parts(const CutInput& input, int parts, CutResult& result) {
-    result.part_share = mean_area_shares(result.part_of_patch, parts, input.patch_area, input.mesh_of);
-    result.meshes_with_part = count_meshes(result.part_of_patch, input.mesh_of, parts);
+void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& patch_area, int parts,
+                    CutResult& result) {
+    result.part_share = mean_area_shares(result.part_of_patch, parts, patch_area, mesh_of);
+    result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
 }
 
 /// K, K+1, K+2, 2K, 3K without repetition.
@@ -353,12 +354,20 @@ std::vector<CutStart> single_start(int parts, double adjacency) {
     return {{graph, parts, graph, MergeRule::normalized_cut}};
 }
 
+CutResult described_partition(const std::vector<int>& labels, int parts, const std::vector<int>& mesh_of,
+                              const std::vector<double>& patch_area) {
+    CutResult result;
+    result.part_of_patch = canonical_labels(labels, parts, patch_area, mesh_of);
+    describe_parts(mesh_of, patch_area, parts, result);
+    return result;
+}
+
 CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const CutOptions& options) {
     refuse_bad_request(comm, input, options);
     CutResult result;
     if (options.parts == 1) {
         result.part_of_patch.assign(input.mesh_of.size(), 0);
-        describe_parts(input, 1, result);
+        describe_parts(input.mesh_of, input.patch_area, 1, result);
         return result;
     }
     const Comm self(MPI_COMM_SELF);
@@ -378,7 +387,7 @@ CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const Cut
         r.outcome.in_reserve = result.starts.size() >= options.starts.size();
         result.starts.push_back(std::move(r.outcome));
     }
-    describe_parts(input, options.parts, result);
+    describe_parts(input.mesh_of, input.patch_area, options.parts, result);
     return result;
 }
 

@@ -102,6 +102,11 @@ struct CutResult {
     double reserve_agreement = 0.0;  ///< of the reserve's starts with each other; 0 without a reserve
 };
 
+/// A partition that was found in another way, numbered and described as co_segmentation_cut does; without starts.
+/// labels: 0 .. parts - 1 per patch.
+CutResult described_partition(const std::vector<int>& labels, int parts, const std::vector<int>& mesh_of,
+                              const std::vector<double>& patch_area);
+
 /// Cuts the patches of all meshes into parts.
 ///
 /// Up to one_rank_entries the affinity is gathered on every rank, the different graphs are dealt over the

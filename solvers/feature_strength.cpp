@@ -29,6 +29,44 @@ std::vector<double> column_sums(const SparseCoefficients& coefficients,
     return sums;
 }
 
+/// Per owned column, per part of the row: the sum over its pairs of ||w_ij||_2.
+std::vector<double> column_blocks(const SparseCoefficients& coefficients,
+                                  const std::vector<int>& part_of_patch, std::size_t parts) {
+    const auto features = static_cast<std::size_t>(coefficients.features);
+    std::vector<double> sums(static_cast<std::size_t>(coefficients.columns.size()) * parts, 0.0);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(coefficients.columns.size()); ++c) {
+        const auto end = static_cast<std::size_t>(coefficients.offsets[c + 1]);
+        for (auto k = static_cast<std::size_t>(coefficients.offsets[c]); k < end; ++k) {
+            double squares = 0.0;
+            for (std::size_t h = 0; h < features; ++h) {
+                const double w = coefficients.values[k * features + h];
+                squares += w * w;
+            }
+            const int part = part_of_patch[static_cast<std::size_t>(coefficients.rows[k])];
+            sums[c * parts + static_cast<std::size_t>(part)] += std::sqrt(squares);
+        }
+    }
+    return sums;
+}
+
+std::vector<std::vector<double>> block_structure(const Comm& comm, const SparseCoefficients& coefficients,
+                                                 const std::vector<int>& part_of_patch, std::size_t parts) {
+    const std::vector<double> sums =
+        all_gather(comm, std::span<const double>(column_blocks(coefficients, part_of_patch, parts)));
+    std::vector<double> blocks(parts * parts, 0.0);
+    double total = 0.0;
+    for (std::size_t j = 0; j < part_of_patch.size(); ++j) {
+        for (std::size_t row = 0; row < parts; ++row) {
+            blocks[row * parts + static_cast<std::size_t>(part_of_patch[j])] += sums[j * parts + row];
+            total += sums[j * parts + row];
+        }
+    }
+    std::vector<std::vector<double>> shares(parts, std::vector<double>(parts, 0.0));
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        shares[b / parts][b % parts] = total > 0.0 ? blocks[b] / total : 0.0;
+    return shares;
+}
+
 std::vector<std::int64_t> count_pairs(const Comm& comm, const SparseCoefficients& coefficients) {
     const auto features = static_cast<std::size_t>(coefficients.features);
     std::vector<std::int64_t> counts(features + 1, 0);
@@ -75,6 +113,7 @@ FeatureStrength feature_strength(const Comm& comm, const SparseCoefficients& coe
         scale_to_shares(strength.of_part[part]);
     }
     scale_to_shares(strength.overall);
+    strength.blocks = block_structure(comm, coefficients, part_of_patch, static_cast<std::size_t>(parts));
     strength.pairs_by_features = count_pairs(comm, coefficients);
     return strength;
 }

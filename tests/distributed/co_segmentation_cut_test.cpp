@@ -234,6 +234,11 @@ TEST(FeatureStrength, CountsPairsAndSharesByDefinition) {
     EXPECT_EQ(s.of_part[1], (std::vector<double>{1.0, 0.0}));
     EXPECT_EQ(s.overall, (std::vector<double>{0.375, 0.625}));
     EXPECT_EQ(s.inside, (std::vector<double>{1.0, 0.5}));
+    const double total = std::sqrt(10.0) + 2.0 + 2.0;  // norms of the pairs
+    EXPECT_DOUBLE_EQ(s.blocks[0][0], std::sqrt(10.0) / total);
+    EXPECT_DOUBLE_EQ(s.blocks[0][1], 2.0 / total);
+    EXPECT_EQ(s.blocks[1][0], 0.0);
+    EXPECT_DOUBLE_EQ(s.blocks[1][1], 2.0 / total);
 }
 
 TEST(FeatureStrength, HasTheSameBitsOnAnyNumberOfRanks) {
@@ -248,6 +253,7 @@ TEST(FeatureStrength, HasTheSameBitsOnAnyNumberOfRanks) {
     EXPECT_EQ(shared.of_part, alone.of_part);
     EXPECT_EQ(shared.overall, alone.overall);
     EXPECT_EQ(shared.inside, alone.inside);
+    EXPECT_EQ(shared.blocks, alone.blocks);
     EXPECT_EQ(shared.pairs_by_features, alone.pairs_by_features);
 }
 

@@ -46,6 +46,25 @@ assert (some["links"], every["links"]) == (2, 4)
 assert 2 * some["allowed_pairs"] == every["allowed_pairs"]
 END
 
+# the baselines are presets: the same as their options, and the same on any number of ranks
+"$COSEG" run "${common[@]}" --preset single:shape_diameter --gap 1e-2 --out "$work/single" "$work/set"
+diff -r "$work/single/labels" "$work/single-feature/labels" || fail "preset single:shape_diameter is not that variant"
+"$COSEG" run "${common[@]}" --preset concatenated --gap 1e-2 --out "$work/stacked" "$work/set"
+diff -r "$work/stacked/labels" "$work/concatenated/labels" || fail "preset concatenated is not that variant"
+for count in 1 2; do
+    ranks $count "$COSEG" run "${common[@]}" --preset descriptor-space --out "$work/space$count" "$work/set"
+done
+diff -r "$work/space1/labels" "$work/space2/labels" || fail "descriptor-space gives other labels on 2 ranks"
+python3 - "$work/space1/report.json" "$work/all/report.json" <<'END' || fail "descriptor-space in the report"
+import json, sys
+space, every = (json.load(open(path)) for path in sys.argv[1:])
+assert space["options"]["partition"] == "diffusion" and space["partition"]["starts"] == [], space["partition"]
+blocks = every["features"]["coefficient_blocks"]
+assert abs(sum(map(sum, blocks)) - 1) < 1e-9 and len(blocks) == 2, blocks
+assert all(0 <= share <= 1 for share in every["features"]["inside_part"])
+END
+refuses "an unknown baseline" 2 "--preset" "$COSEG" run "${common[@]}" --preset single:colour --out "$work/x" "$work/set"
+
 refuses "links over all pairs" 2 "need --scope mesh" "$COSEG" run "${common[@]}" --scope paper --links 4 --out "$work/x" "$work/set"
 refuses "links of an l1 problem" 2 "need --scope mesh" "$COSEG" run "${common[@]}" --variant ssc --links 4 --out "$work/x" "$work/set"
 refuses "one link" 2 "links" "$COSEG" run "${common[@]}" --links 1 --out "$work/x" "$work/set"
