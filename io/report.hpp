@@ -47,6 +47,9 @@ struct ReportOptimisation {
     std::string variant;
     std::string scope;
     int links = 0;  ///< meshes in which a patch may have matches, at most
+    int subsets = 1;
+    int common_meshes = 0;
+    double subset_agreement = 1.0;
     std::int64_t allowed_pairs = 0;
     std::int64_t patches = 0;
     double objective = 0.0;

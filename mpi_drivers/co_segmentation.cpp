@@ -1,7 +1,9 @@
 #include "mpi_drivers/co_segmentation.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "io/mesh_list.hpp"
 #include "io/report_page.hpp"
@@ -14,7 +16,9 @@
 #include "mpi_drivers/output_stage.hpp"
 #include "mpi_drivers/picture_stage.hpp"
 #include "mpi_drivers/report_stage.hpp"
+#include "mpi_drivers/segment_stage.hpp"
 #include "mpi_drivers/solution_output.hpp"
+#include "mpi_drivers/subset_stage.hpp"
 #include "solvers/petsc_session.hpp"
 #include "src/error.hpp"
 #include "src/stage_log.hpp"
@@ -137,6 +141,56 @@ Collection describe_stage(const Comm& comm, const RunOptions& options, StageLog&
     return collection;
 }
 
+std::string significant(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+struct Partitioned {
+    Optimisation optimisation;
+    CutResult cut;
+};
+
+Partitioned partition_whole(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                            const RunOptions& options, StageLog& log) {
+    Partitioned done;
+    log.begin("optimise");
+    done.optimisation = optimise(comm, collection, features, options);
+    const SolveResult& solution = done.optimisation.result;
+    log.end(describe(done.optimisation));
+    if (options.parts > 1) refuse_empty_solution(solution, "the collection");
+    log.begin("cut");
+    done.cut = cut_into_parts(comm, collection, features, solution.coefficients, options);
+    log.end(with_unit(static_cast<std::int64_t>(done.cut.starts.size()), "start", "starts") + ", " +
+            std::to_string(options.parts) + " parts");
+    return done;
+}
+
+Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
+                                 const PatchFeatures& features, const RunOptions& options, StageLog& log) {
+    log.begin("subsets");
+    SubsetOutcome outcome = partition_subsets(comm, collection, features, options);
+    log.end(with_unit(outcome.optimisation.subsets, "subset", "subsets") + ", " +
+            with_unit(outcome.optimisation.common_meshes, "common shape", "common shapes") + ", " +
+            significant(100.0 * outcome.optimisation.subset_agreement) + " % agreement on these");
+    return {std::move(outcome.optimisation), std::move(outcome.cut)};
+}
+
+Partitioned partition_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                            const RunOptions& options, StageLog& log) {
+    const bool whole = options.subsets == 0 || static_cast<int>(collection.meshes.size()) <= options.subsets;
+    Partitioned done = whole ? partition_whole(comm, collection, features, options, log)
+                             : partition_in_subsets(comm, collection, features, options, log);
+    if (!done.optimisation.warning.empty()) log.warn(done.optimisation.warning);
+    if (options.segments) {
+        log.begin("segments");
+        done.cut = partition_segments(comm, collection, features, done.cut, options);
+        log.end("second pass");
+    }
+    return done;
+}
+
 }  // namespace
 
 void co_segment(const Comm& comm, const RunOptions& options,
@@ -161,17 +215,9 @@ void co_segment(const Comm& comm, const RunOptions& options,
 
     if (options.keep_features) write_features(comm, collection, features, folder.staging() + "/features.h5");
 
-    log.begin("optimise");
-    const Optimisation optimisation = optimise(comm, collection, features, options);
-    const SolveResult& solution = optimisation.result;
-    log.end(describe(optimisation));
-    if (options.parts > 1) refuse_empty_solution(solution, "the collection");
-    if (!optimisation.warning.empty()) log.warn(optimisation.warning);
-
-    log.begin("cut");
-    const CutResult cut = cut_into_parts(comm, collection, features, solution.coefficients, options);
-    log.end(with_unit(static_cast<std::int64_t>(cut.starts.size()), "start", "starts") + ", " +
-            std::to_string(options.parts) + " parts");
+    const Partitioned partitioned = partition_stage(comm, collection, features, options, log);
+    const Optimisation& optimisation = partitioned.optimisation;
+    const CutResult& cut = partitioned.cut;
 
     log.begin("label");
     const std::vector<MeshLabels> labels = label_faces(collection, cut.part_of_patch, options);

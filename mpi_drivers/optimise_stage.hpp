@@ -20,8 +20,12 @@ struct Optimisation {
     std::string scope;  ///< what it came to: one mesh alone is always of scope paper, ssc and ssqp too
     int links = 0;      ///< meshes in which a patch may have matches, at most
     std::vector<std::string> features;  ///< names of the coefficients' features: H of them, or one
-    std::int64_t allowed_pairs = 0;     ///< that the certificate covers
-    std::string warning;                ///< empty, or why the coefficients deserve a look
+    int subsets = 1;                    ///< in which the collection was solved, see subset_stage.hpp
+    int common_meshes = 0;              ///< meshes in every subset, if there are several
+    double subset_agreement =
+        1.0;  ///< mean share of the common meshes' area on which a subset agrees with the first
+    std::int64_t allowed_pairs = 0;  ///< that the certificate covers
+    std::string warning;             ///< empty, or why the coefficients deserve a look
 };
 
 /// The problem that the options ask for, with `names` of the meshes as the seed of their links.

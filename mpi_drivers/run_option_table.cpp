@@ -228,6 +228,21 @@ void RunOptionTable::add_partition(CLI::App& app) {
         ->check(CLI::Range(0.0, 1.0));
     add_switch(app, "choose", options_.choose,
                "Try several adjacency weights and cluster numbers, choose without labels", partition_group);
+    add(app, "subsets", options_.subsets,
+        "Solve overlapping subsets of so many shapes, a third of them common to all, and reconcile their "
+        "parts; 0 solves "
+        "the collection whole",
+        partition_group)
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                return text == "1" || text == "2" || text == "3"
+                           ? std::string("a subset needs at least 4 shapes")
+                           : std::string();
+            },
+            ""))
+        ->check(CLI::Range(0, 1000000));
+    add_switch(app, "segments", options_.segments,
+               "A second pass on the whole segments that the first one gave", partition_group);
     add(app, "partition", options_.partition,
         "spectral (normalised cut of the affinity), or diffusion (patches clustered by their descriptors "
         "alone: no "

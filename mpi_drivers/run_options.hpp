@@ -56,6 +56,8 @@ struct RunOptions {
     double overlap = 1.0;
     double mesh_balance = 0.3;
     std::string partition = "spectral";
+    int subsets = 0;  ///< meshes in a subset; 0: the collection is solved whole
+    bool segments = false;
     bool choose = true;
     std::string refine = "held";
     bool reserve = true;
