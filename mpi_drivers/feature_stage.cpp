@@ -1,5 +1,6 @@
 #include "mpi_drivers/feature_stage.hpp"
 
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "src/feature_range.hpp"
 #include "src/histogram.hpp"
 #include "src/patch_relations.hpp"
+#include "src/seeded_random.hpp"
 
 namespace coseg {
 
@@ -63,14 +65,6 @@ BinsOfMeshes scalar_bins(const Comm& comm, Collection& collection, Feature featu
     return bins;
 }
 
-BinsOfMeshes word_bins(const Comm& comm, Collection& collection, const RunOptions& options) {
-    std::vector<ShapeWordInput> contexts;
-    for (const MeshDescription& mesh : collection.local) contexts.push_back({mesh.key, &mesh.shape_context});
-    BinsOfMeshes bins = shape_words(comm, contexts, options.bins, options.seed);
-    for (MeshDescription& mesh : collection.local) mesh.shape_context.resize(0, 0);
-    return bins;
-}
-
 Eigen::MatrixXd mesh_histograms(const MeshDescription& mesh, const std::vector<int>& bins, int patches,
                                 const RunOptions& options) {
     const HistogramOptions scaling{.scaling = scaling_of(options.histogram)};
@@ -98,6 +92,25 @@ Eigen::MatrixXd gathered_histograms(const Comm& comm, const Collection& collecti
     return gather_patch_columns(comm, collection, local, options.bins);
 }
 
+/// Histograms over several sets of words, one below the other, scaled so that inner products are the mean over the
+/// sets (square roots), or columns the mean: where k-means puts its borders is chance, which several sets even out.
+Eigen::MatrixXd word_histograms(const Comm& comm, Collection& collection, const RunOptions& options) {
+    std::vector<ShapeWordInput> contexts;
+    for (const MeshDescription& mesh : collection.local) contexts.push_back({mesh.key, &mesh.shape_context});
+    const auto sets = static_cast<double>(options.word_sets);
+    const bool is_root = scaling_of(options.histogram) == HistogramScaling::square_root;
+    Eigen::MatrixXd all(options.bins * options.word_sets, collection.numbering.patch_count());
+    for (int set = 0; set < options.word_sets; ++set) {
+        const std::uint64_t seed =
+            set == 0 ? options.seed : hash_words({options.seed, static_cast<std::uint64_t>(set)});
+        const BinsOfMeshes bins = shape_words(comm, contexts, options.bins, seed);
+        all.middleRows(static_cast<Eigen::Index>(set) * options.bins, options.bins) =
+            gathered_histograms(comm, collection, bins, options) / (is_root ? std::sqrt(sets) : sets);
+    }
+    for (MeshDescription& mesh : collection.local) mesh.shape_context.resize(0, 0);
+    return all;
+}
+
 std::vector<double> gathered_areas(const Comm& comm, const Collection& collection) {
     std::vector<Eigen::MatrixXd> local;
     for (const MeshDescription& mesh : collection.local) {
@@ -122,10 +135,12 @@ PatchFeatures patch_features(const Comm& comm, Collection& collection, const Run
         const double weight = options.feature_weights[static_cast<std::size_t>(h)];
         if (!(weight > 0.0)) continue;
         const auto feature = static_cast<Feature>(h);
-        const BinsOfMeshes bins = feature == Feature::shape_context
-                                      ? word_bins(comm, collection, options)
-                                      : scalar_bins(comm, collection, feature, options, features.ranges);
-        features.histograms.push_back(weight * gathered_histograms(comm, collection, bins, options));
+        if (feature == Feature::shape_context) {
+            features.histograms.push_back(weight * word_histograms(comm, collection, options));
+        } else {
+            const BinsOfMeshes bins = scalar_bins(comm, collection, feature, options, features.ranges);
+            features.histograms.push_back(weight * gathered_histograms(comm, collection, bins, options));
+        }
         features.feature_of.push_back(h);
     }
     features.patch_area = gathered_areas(comm, collection);

@@ -20,7 +20,7 @@ struct NamedRange {
 
 struct PatchFeatures {
     std::vector<Eigen::MatrixXd>
-        histograms;                  ///< features with positive weight: bins x N each, times the weight
+        histograms;  ///< features with positive weight: bins x N each (shape contexts: bins word_sets x N), times the weight
     std::vector<int> feature_of;     ///< which Feature each of them is
     std::vector<double> patch_area;  ///< N, each mesh's over-segmentation sums to 1
     std::vector<NamedRange> ranges;  ///< the bin range of every scalar feature, for the report

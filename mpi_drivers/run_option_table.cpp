@@ -157,6 +157,9 @@ void RunOptionTable::add_patches_and_features(CLI::App& app) {
         ->check(CLI::Range(10, 5000));
     add(app, "bins", options_.bins, "Histogram bins, and words of shape contexts", patches_group)
         ->check(CLI::Range(2, 1000));
+    add(app, "word-sets", options_.word_sets, "Sets of shape-context words whose similarities are averaged",
+        patches_group)
+        ->check(CLI::Range(1, 100));
     add(app, "histogram", options_.histogram, "Scaling of histograms: counts, unit-sum, square-root",
         patches_group)
         ->check(CLI::IsMember({"counts", "unit-sum", "square-root"}));

@@ -35,6 +35,7 @@ struct RunOptions {
 
     int geodesic_samples = 300;
     int bins = 100;
+    int word_sets = 1;
     std::string histogram = "square-root";
     std::string ranges = "adapted";
     std::vector<double> feature_weights = {1.0, 0.5, 1.0, 2.0, 1.0};

@@ -54,6 +54,7 @@ refuses "value out of range" 2 "--alpha" run 2 --alpha -1 "$work/good"
 refuses "value that is not a number" 2 "--gap" run 2 --gap nan "$work/good"
 refuses "negative seed" 2 "--seed" run 2 --seed -1 "$work/good"
 refuses "no feature" 2 "--feature-weights" run 2 --feature-weights=0,0,0,0,0 "$work/good"
+refuses "no set of words" 2 "--word-sets" run 2 --word-sets 0 "$work/good"
 refuses "balance beyond its range" 2 "--mesh-balance" run 2 --mesh-balance 1.5 "$work/good"
 refuses "balance of the paper's cut" 2 "--mesh-balance" run 2 --preset paper --mesh-balance 0.3 "$work/good"
 refuses "value that the eigensolver refuses" 2 "abc" run 2 "$work/good" -- -eps_tol abc

@@ -16,3 +16,11 @@ for preset in default paper; do
     done
     echo "ok: $preset"
 done
+
+several=(--quiet --parts 2 --patches 20 --geodesic-samples 100 --word-sets 3)
+for count in 1 3; do ranks "$count" "$COSEG" run "${several[@]}" --out "$work/words.$count" "$work/set/meshes"; done
+diff -r "$work/words.1/labels" "$work/words.3/labels" || fail "several sets of words: labels differ on 3 ranks"
+objective() { grep '"objective"' "$1/report.json"; }
+diff <(objective "$work/words.1") <(objective "$work/words.3") || fail "several sets of words: the objective differs on 3 ranks"
+[[ $(objective "$work/words.1") != $(objective "$work/default.1") ]] || fail "several sets of words change nothing"
+echo "ok: several sets of words"
