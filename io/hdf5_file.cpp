@@ -122,11 +122,13 @@ Handle creation_with_groups() {
     return list;
 }
 
-std::string checksum_line(std::string_view content) {
-    char line[user_block] = {};
-    std::snprintf(line, sizeof line, "coseg hdf5 1 bytes=%" PRIu64 " xxh3=%s\n",
-                  static_cast<std::uint64_t>(content.size()), hash_bytes(content).hex().c_str());
-    return {line, sizeof line};
+/// Length and checksum, then the summary as far as there is room; zeros to the end.
+std::string filled_user_block(std::string_view content, const std::string& summary) {
+    char block[user_block] = {};
+    std::snprintf(block, sizeof block, "coseg hdf5 1 bytes=%" PRIu64 " xxh3=%s\n%s",
+                  static_cast<std::uint64_t>(content.size()), hash_bytes(content).hex().c_str(),
+                  summary.c_str());
+    return {block, sizeof block};
 }
 
 struct Expectation {
@@ -276,6 +278,8 @@ void Hdf5Writer::attribute(const std::string& name, const std::string& value) {
     write_attribute(path_, handles_->file.id(), name, type.id(), &pointer);
 }
 
+void Hdf5Writer::summary(const std::string& line) { summary_ = line; }
+
 void Hdf5Writer::commit() {
     const hid_t file = handles_->file.id();
     H5Fflush(file, H5F_SCOPE_LOCAL);
@@ -287,8 +291,8 @@ void Hdf5Writer::commit() {
     handles_.reset();
     // The library finds the file's begin behind a user block by itself, and images with one come out short.
     AtomicFile output(path_);
-    const std::string line = checksum_line(image);
-    output.stream().write(line.data(), static_cast<std::streamsize>(line.size()));
+    const std::string block = filled_user_block(image, summary_);
+    output.stream().write(block.data(), static_cast<std::streamsize>(block.size()));
     output.stream().write(image.data(), static_cast<std::streamsize>(image.size()));
     output.commit();
 }
@@ -442,6 +446,15 @@ std::string Hdf5Reader::text(const std::string& name) const {
     std::string value = pointer != nullptr ? pointer : "";
     H5free_memory(pointer);
     return value;
+}
+
+std::string read_summary(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, user_block + 1> block{};
+    file.read(block.data(), user_block);
+    const std::string text = block.data();
+    const std::size_t end = text.find('\n');
+    return end == std::string::npos ? "" : text.substr(end + 1);
 }
 
 void verify_checksum(const std::string& path) { check_content(path, Hdf5Origin::ours); }

@@ -48,6 +48,9 @@ class Hdf5Writer {
     void attribute(const std::string& name, double value);
     void attribute(const std::string& name, const std::string& value);
 
+    /// A line for listings, which read_summary() finds without opening the file: the second of the user block.
+    void summary(const std::string& line);
+
     /// Throws Error(output) with path and cause (a full disk, a folder that cannot be written); an older file of that
     /// name then stays as it was.
     void commit();
@@ -55,6 +58,7 @@ class Hdf5Writer {
   private:
     struct Handles;
     std::string path_;
+    std::string summary_;
     std::unique_ptr<Handles> handles_;
 };
 
@@ -100,6 +104,9 @@ class Hdf5Reader {
     std::string path_;
     std::unique_ptr<Handles> handles_;
 };
+
+/// The summary of one of our files, "" if it has none or cannot be read.
+std::string read_summary(const std::string& path);
 
 /// Reads every byte of one of our files and compares length and checksum. Throws Error(input) saying what is wrong.
 void verify_checksum(const std::string& path);

@@ -35,6 +35,14 @@ Json of_stages(const std::vector<ReportStage>& stages) {
     return rows;
 }
 
+Json of_state(const ReportState& state) {
+    return {{"folder", state.folder},
+            {"meshes_reused", state.meshes_reused},
+            {"meshes_described", state.meshes_described},
+            {"tiles_reused", state.tiles_reused},
+            {"tiles_solved", state.tiles_solved}};
+}
+
 Json of_meshes(const std::vector<ReportMesh>& meshes) {
     Json rows = Json::array();
     for (const ReportMesh& m : meshes) {
@@ -120,6 +128,7 @@ void write_report(const std::string& path, const Report& report) {
     root["optimisation"] = of_optimisation(report.optimisation);
     root["partition"] = of_partition(report);
     root["features"] = of_features(report);
+    if (!report.state.folder.empty()) root["state"] = of_state(report.state);
     root["meshes"] = of_meshes(report.meshes);
     root["set_aside"] = Json::array();
     for (const auto& [mesh, reason] : report.set_aside)

@@ -76,6 +76,15 @@ struct ReportStrength {
     std::vector<double> within_part;  ///< the same inside each part
 };
 
+/// With --state: what was there already and what had to be computed.
+struct ReportState {
+    std::string folder;  ///< empty without --state
+    std::int64_t meshes_reused = 0;
+    std::int64_t meshes_described = 0;
+    std::int64_t tiles_reused = 0;  ///< of the optimiser
+    std::int64_t tiles_solved = 0;
+};
+
 struct Report {
     std::vector<std::pair<std::string, std::string>> options;
     std::vector<std::pair<std::string, std::string>> versions;
@@ -83,6 +92,7 @@ struct Report {
     double seconds = 0.0;
     double peak_memory_sum_mib = 0.0;  ///< sum over ranks of each rank's peak resident memory
     double peak_memory_max_mib = 0.0;
+    ReportState state;
     std::vector<ReportStage> stages;
     std::vector<ReportMesh> meshes;
     std::vector<std::pair<std::string, std::string>> set_aside;  ///< path and reason

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "io/mesh_list.hpp"
@@ -16,9 +18,11 @@
 #include "mpi_drivers/output_stage.hpp"
 #include "mpi_drivers/picture_stage.hpp"
 #include "mpi_drivers/report_stage.hpp"
+#include "mpi_drivers/run_state.hpp"
 #include "mpi_drivers/segment_stage.hpp"
 #include "mpi_drivers/solution_output.hpp"
 #include "mpi_drivers/subset_stage.hpp"
+#include "mpi_drivers/tile_journal.hpp"
 #include "solvers/petsc_session.hpp"
 #include "src/error.hpp"
 #include "src/stage_log.hpp"
@@ -70,38 +74,16 @@ void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::s
     namespace fs = std::filesystem;
     std::error_code ignored;
     const fs::path results = fs::weakly_canonical(fs::absolute(out), ignored);
+    std::set<fs::path> seen;  // a collection has far fewer folders than meshes
     for (const MeshEntry& entry : entries) {
-        const fs::path folder = fs::weakly_canonical(fs::absolute(entry.path), ignored).parent_path();
+        const fs::path parent = fs::absolute(entry.path).parent_path();
+        if (!seen.insert(parent).second) continue;
         for (const char* own : {"labels", "patches", "ply"}) {
-            if (!fs::equivalent(folder, results / own, ignored)) continue;
+            if (!fs::equivalent(parent, results / own, ignored)) continue;
             throw Error(ExitCode::output, entry.path + ": lies in the folder " + own +
                                               "/ of the results, which the run replaces; name another --out");
         }
     }
-}
-
-/// Rank 0 alone asks the file system; the list is then the same on every rank.
-std::vector<MeshEntry> list_meshes(const Comm& comm, const RunOptions& options) {
-    std::vector<MeshEntry> entries;
-    agree(comm, [&] {
-        if (!comm.is_root()) return;
-        entries = expand_mesh_list(options.inputs);
-        refuse_input_in_results(entries, options.out);
-    });
-    std::vector<std::string> names;
-    std::vector<std::string> paths;
-    std::vector<std::string> sizes;
-    for (const MeshEntry& entry : entries) {
-        names.push_back(entry.name);
-        paths.push_back(entry.path);
-        sizes.push_back(std::to_string(entry.bytes));
-    }
-    broadcast_texts(comm, names);
-    broadcast_texts(comm, paths);
-    broadcast_texts(comm, sizes);
-    entries.resize(names.size());
-    for (std::size_t k = 0; k < names.size(); ++k) entries[k] = {names[k], paths[k], std::stoull(sizes[k])};
-    return entries;
 }
 
 void warn_of_meshes(const Collection& collection, const StageLog& log) {
@@ -127,15 +109,24 @@ Verbosity verbosity_of(const RunOptions& options) {
     return options.verbose ? Verbosity::verbose : Verbosity::normal;
 }
 
-Collection describe_stage(const Comm& comm, const RunOptions& options, StageLog& log) {
-    const std::vector<MeshEntry> entries = list_meshes(comm, options);
+std::string reuse_summary(const Collection& collection) {
+    const auto reused = std::count_if(collection.meshes.begin(), collection.meshes.end(),
+                                      [](const MeshFacts& mesh) { return mesh.reused; });
+    return reused > 0 ? ", " + std::to_string(reused) + " from the state folder" : "";
+}
+
+Collection describe_stage(const Comm& comm, const RunOptions& options, const RunState* state, StageLog& log) {
+    const std::vector<MeshEntry> entries = list_meshes(comm, options.inputs);
+    agree(comm, [&] {
+        if (comm.is_root()) refuse_input_in_results(entries, options.out);
+    });
     log.begin("describe");
-    Collection collection = describe_collection(comm, entries, options, log);
+    Collection collection = describe_collection(comm, entries, options, state, log);
     std::int64_t faces = 0;
     for (const MeshFacts& mesh : collection.meshes) faces += mesh.input_faces;
     log.end(with_unit(static_cast<std::int64_t>(collection.meshes.size()), "shape", "shapes") + ", " +
             with_unit(faces, "face", "faces") + ", " +
-            with_unit(collection.numbering.patch_count(), "patch", "patches"));
+            with_unit(collection.numbering.patch_count(), "patch", "patches") + reuse_summary(collection));
     warn_of_meshes(collection, log);
     refuse_too_many_parts(collection, options);
     return collection;
@@ -153,10 +144,10 @@ struct Partitioned {
 };
 
 Partitioned partition_whole(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                            const RunOptions& options, StageLog& log) {
+                            const RunOptions& options, TileJournal* journal, StageLog& log) {
     Partitioned done;
     log.begin("optimise");
-    done.optimisation = optimise(comm, collection, features, options);
+    done.optimisation = optimise(comm, collection, features, options, journal);
     const SolveResult& solution = done.optimisation.result;
     log.end(describe(done.optimisation));
     if (options.parts > 1) refuse_empty_solution(solution, "the collection");
@@ -178,9 +169,9 @@ Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
 }
 
 Partitioned partition_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                            const RunOptions& options, StageLog& log) {
+                            const RunOptions& options, TileJournal* journal, StageLog& log) {
     const bool whole = options.subsets == 0 || static_cast<int>(collection.meshes.size()) <= options.subsets;
-    Partitioned done = whole ? partition_whole(comm, collection, features, options, log)
+    Partitioned done = whole ? partition_whole(comm, collection, features, options, journal, log)
                              : partition_in_subsets(comm, collection, features, options, log);
     if (!done.optimisation.warning.empty()) log.warn(done.optimisation.warning);
     if (options.segments) {
@@ -189,6 +180,17 @@ Partitioned partition_stage(const Comm& comm, const Collection& collection, cons
         log.end("second pass");
     }
     return done;
+}
+
+ReportState summarised(const Comm& comm, const RunState& state, const TileJournal& journal,
+                       const Collection& collection) {
+    ReportState summary;
+    summary.folder = state.folder().path();
+    for (const MeshFacts& mesh : collection.meshes)
+        ++(mesh.reused ? summary.meshes_reused : summary.meshes_described);
+    summary.tiles_reused = all_sum(comm, std::int64_t{journal.found_count()});
+    summary.tiles_solved = all_sum(comm, std::int64_t{journal.kept_count()});
+    return summary;
 }
 
 }  // namespace
@@ -204,9 +206,13 @@ void co_segment(const Comm& comm, const RunOptions& options,
     refuse_balanced_paper(options);
     const PetscSession session(petsc_arguments);
     refuse_unused_petsc_options(comm, "-eps_");
+    std::optional<RunState> state;
+    if (!options.state.empty())
+        state.emplace(comm, options.state, LockMode::exclusive, options.checkpoint_seconds);
     ResultFolder folder(comm, options.out, options.force);
+    if (state) state->rearm();
 
-    Collection collection = describe_stage(comm, options, log);
+    Collection collection = describe_stage(comm, options, state ? &*state : nullptr, log);
 
     log.begin("features");
     const PatchFeatures features = patch_features(comm, collection, options);
@@ -215,9 +221,20 @@ void co_segment(const Comm& comm, const RunOptions& options,
 
     if (options.keep_features) write_features(comm, collection, features, folder.staging() + "/features.h5");
 
-    const Partitioned partitioned = partition_stage(comm, collection, features, options, log);
+    if (state) state->end_if_asked(comm, "all meshes");
+
+    std::optional<TileJournal> journal;
+    if (state) journal.emplace(comm, *state);
+    const Partitioned partitioned =
+        partition_stage(comm, collection, features, options, journal ? &*journal : nullptr, log);
     const Optimisation& optimisation = partitioned.optimisation;
     const CutResult& cut = partitioned.cut;
+    ReportState state_summary;
+    if (journal) {
+        state_summary = summarised(comm, *state, *journal, collection);
+        for (const std::string& warning : journal->warnings()) log.warn(warning);
+        state->end_if_asked(comm, "all meshes and the optimiser's tiles");
+    }
 
     log.begin("label");
     const std::vector<MeshLabels> labels = label_faces(collection, cut.part_of_patch, options);
@@ -232,7 +249,9 @@ void co_segment(const Comm& comm, const RunOptions& options,
         write_run_sheet(comm, folder, collection, labels, options);
         log.end(options.out + "/contact_sheet.png");
     }
-    write_run_report(comm, folder, {collection, features, optimisation, cut, labels, options, resolved}, log);
+    write_run_report(comm, folder,
+                     {collection, features, optimisation, cut, labels, options, resolved, state_summary},
+                     log);
     if (options.html && can_write_report_page()) {
         log.begin("page");
         write_html_report(comm, {folder.staging(), {}, ""}, folder.staging(), {options.view, options.up});

@@ -37,5 +37,7 @@ Command add_report_command(CLI::App& parent);
 Command add_export_command(CLI::App& parent);
 Command add_man_command(CLI::App& parent);
 Command add_completion_command(CLI::App& parent);
+Command add_describe_command(CLI::App& parent);
+Command add_state_command(CLI::App& parent);
 
 }  // namespace coseg

@@ -50,7 +50,8 @@ FaceDescriptors face_descriptors(const FinishedRun& run, const LabelledMesh& sha
     options.remesh = run.remesh;
     options.patches = run.patches;
     options.geodesic_samples = run.geodesic_samples;
-    MeshDescription description = describe_mesh_faces(shape.number, shape.name, shape.path, options);
+    MeshDescription description =
+        describe_mesh_faces(shape.number, shape.name, shape.path, description_options(options));
     description.descriptors[static_cast<std::size_t>(Feature::shape_context)] =
         mean_ring(description.shape_context);
     FaceDescriptors values;

@@ -112,12 +112,16 @@ int parse_and_run(const Comm& world, int argc, char** argv) {
     CLI::App app("coseg: co-segmentation of collections of 3D shapes", "coseg");
     app.set_version_flag("--version", coseg::version_text);
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 success, 1 internal error, 2 usage, 3 input, 4 output, 5 no convergence.");
+    app.footer(
+        "Exit codes: 0 success, 1 internal error, 2 usage, 3 input, 4 output, 5 no convergence, "
+        "75 checkpointed (the same command continues).");
     const std::vector<coseg::Command> commands = {
-        coseg::add_run_command(app),       coseg::add_score_command(app),  coseg::add_generate_command(app),
-        coseg::add_solve_command(app),     coseg::add_render_command(app), coseg::add_report_command(app),
-        coseg::add_cluster_command(app),   coseg::add_export_command(app), coseg::add_man_command(app),
-        coseg::add_completion_command(app)};
+        coseg::add_run_command(app),      coseg::add_score_command(app),
+        coseg::add_generate_command(app), coseg::add_solve_command(app),
+        coseg::add_render_command(app),   coseg::add_report_command(app),
+        coseg::add_cluster_command(app),  coseg::add_export_command(app),
+        coseg::add_man_command(app),      coseg::add_completion_command(app),
+        coseg::add_describe_command(app), coseg::add_state_command(app)};
     try {
         refuse_unknown_command(commands, arguments.own);
         std::vector<std::string> words = coseg::with_config_file(world, arguments.own);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "io/file_contents.hpp"
 #include "io/mesh_reader.hpp"
 #include "solvers/oversegmentation.hpp"
 #include "src/average_geodesic.hpp"
@@ -83,7 +84,8 @@ void remesh_if_possible(TriMesh& mesh, MeshDescription& description, const std::
     }
 }
 
-TriMesh working_mesh(MeshDescription& description, const std::string& path, const RunOptions& options) {
+TriMesh working_mesh(MeshDescription& description, const std::string& path,
+                     const DescriptionOptions& options) {
     RepairedMesh repaired = repair(description.input, path);
     description.warnings = std::move(repaired.warnings);
     description.map = std::move(repaired.map);
@@ -101,7 +103,7 @@ Eigen::VectorXd& descriptor(MeshDescription& description, Feature feature) {
     return description.descriptors[static_cast<std::size_t>(feature)];
 }
 
-void describe_faces(MeshDescription& description, const TriMesh& mesh, const RunOptions& options,
+void describe_faces(MeshDescription& description, const TriMesh& mesh, const DescriptionOptions& options,
                     StepClock& clock) {
     const FaceGeometry& geometry = description.geometry;
     descriptor(description, Feature::gaussian_curvature) = gaussian_curvature(mesh, geometry);
@@ -118,7 +120,7 @@ void describe_faces(MeshDescription& description, const TriMesh& mesh, const Run
     clock.end_of(DescribeStep::contexts);
 }
 
-void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const RunOptions& options,
+void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const DescriptionOptions& options,
                       StepClock& clock) {
     const Eigen::VectorXd curvature = minimum_curvature(mesh, description.geometry);
     clock.end_of(DescribeStep::curvature);
@@ -145,11 +147,11 @@ void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const R
 
 /// All but the patches; returns the working mesh.
 TriMesh describe_surface(MeshDescription& description, int mesh, const std::string& name,
-                         const std::string& path, const RunOptions& options) {
+                         const std::string& path, std::string_view bytes, const DescriptionOptions& options) {
     StepClock clock(description);
     description.mesh = mesh;
     description.key = hash_text(name);
-    description.input = read_mesh(path);
+    description.input = parse_mesh(bytes, path);
     clock.end_of(DescribeStep::read);
     TriMesh working = working_mesh(description, path, options);
     clock.end_of(DescribeStep::repair);
@@ -162,19 +164,28 @@ TriMesh describe_surface(MeshDescription& description, int mesh, const std::stri
 
 }  // namespace
 
+DescriptionOptions description_options(const RunOptions& options) {
+    return {.seed = options.seed,
+            .remesh = options.remesh,
+            .patches = options.patches,
+            .oversegmentations = options.oversegmentations,
+            .cut_noise = options.cut_noise,
+            .geodesic_samples = options.geodesic_samples};
+}
+
 MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
-                              const RunOptions& options) {
+                              std::string_view bytes, const DescriptionOptions& options) {
     MeshDescription description;
-    const TriMesh working = describe_surface(description, mesh, name, path, options);
+    const TriMesh working = describe_surface(description, mesh, name, path, bytes, options);
     StepClock clock(description);
     cut_into_patches(description, working, options, clock);
     return description;
 }
 
 MeshDescription describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
-                                    const RunOptions& options) {
+                                    const DescriptionOptions& options) {
     MeshDescription description;
-    describe_surface(description, mesh, name, path, options);
+    describe_surface(description, mesh, name, path, read_file(path), options);
     return description;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mpi_drivers/run_options.hpp"
@@ -46,6 +47,19 @@ inline constexpr std::array<const char*, describe_step_total> describe_step_name
     "read",      "repair",   "dual_graph",       "curvature", "shape_diameter", "conformal_factor",
     "geodesics", "contexts", "oversegmentation", "relations"};
 
+/// The options that a description depends on, and no others: what describe_mesh uses must stand here, because the
+/// descriptions in a state folder are found by it (description_file.hpp).
+struct DescriptionOptions {
+    std::uint64_t seed = 1;
+    std::string remesh = "auto";
+    int patches = 50;
+    int oversegmentations = 3;
+    double cut_noise = 0.3;
+    int geodesic_samples = 300;
+};
+
+DescriptionOptions description_options(const RunOptions& options);
+
 struct OverlapsOfPair {
     int oversegmentation_a = 0;  ///< a < b
     int oversegmentation_b = 0;
@@ -69,17 +83,19 @@ struct MeshDescription {
     std::vector<std::vector<PatchNeighbors>> neighbors;  ///< per over-segmentation
     std::vector<OverlapsOfPair> overlaps;
     std::vector<std::string> warnings;
+    bool reused = false;  ///< read from a state folder
     double seconds = 0.0;
     std::array<double, describe_step_total> step_seconds{};
 };
 
-/// Reads, repairs, over-segments and describes one mesh. Serial; a function of the file and the options alone.
+/// Repairs, over-segments and describes one mesh. bytes: the content of the file at `path`. Serial; a function of the
+/// bytes, the name, the extension of the path and the options alone, but for the path in warnings.
 /// Throws Error(input) if the file cannot be used.
 MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
-                              const RunOptions& options);
+                              std::string_view bytes, const DescriptionOptions& options);
 
-/// The same without patches, neighbours and overlaps.
+/// The same from the file itself, without patches, neighbours and overlaps.
 MeshDescription describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
-                                    const RunOptions& options);
+                                    const DescriptionOptions& options);
 
 }  // namespace coseg

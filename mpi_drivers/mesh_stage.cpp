@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "mpi_drivers/kept_description.hpp"
 #include "src/error.hpp"
 #include "src/shared_counter.hpp"
 
@@ -26,21 +27,39 @@ std::vector<int> schedule(const std::vector<MeshEntry>& entries) {
     return order;
 }
 
-void attempt_one(Attempt& attempt, int number, const MeshEntry& entry, const RunOptions& options) {
+/// False if the state folder cannot be written: the other meshes would fare alike.
+bool attempt_one(Attempt& attempt, int number, const MeshEntry& entry, const DescriptionOptions& options,
+                 const StateFolder* folder) {
     try {
-        attempt.described.push_back(describe_mesh(number, entry.name, entry.path, options));
+        attempt.described.push_back(kept_description(number, entry, options, folder));
     } catch (const Error& error) {
         attempt.failed.emplace_back(number, error);
+        return error.code() != ExitCode::output;
     } catch (const std::bad_alloc&) {
         attempt.failed.emplace_back(
             number, Error(ExitCode::internal, entry.path + ": out of memory; use more nodes"));
     } catch (const std::exception& error) {
         attempt.failed.emplace_back(number, Error(ExitCode::internal, entry.path + ": " + error.what()));
     }
+    return true;
+}
+
+enum class Keep { all, nothing };
+
+void forget_content(MeshDescription& description) {
+    MeshDescription bare;
+    bare.mesh = description.mesh;
+    bare.reused = description.reused;
+    bare.warnings = std::move(description.warnings);
+    bare.seconds = description.seconds;
+    bare.step_seconds = description.step_seconds;
+    description = std::move(bare);
 }
 
 Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& entries,
-                              const RunOptions& options, StageLog& log) {
+                              const RunOptions& options, const RunState* state, Keep keep, StageLog& log) {
+    const DescriptionOptions description = description_options(options);
+    const StateFolder* folder = state != nullptr ? &state->folder() : nullptr;
     const std::vector<int> order = schedule(entries);
     const auto total = static_cast<std::int64_t>(entries.size());
     Attempt attempt;
@@ -48,7 +67,11 @@ Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& en
     for (std::int64_t k = counter.next(); k < total; k = counter.next()) {
         log.progress(k, total);
         const int number = order[static_cast<std::size_t>(k)];
-        attempt_one(attempt, number, entries[static_cast<std::size_t>(number)], options);
+        const bool goes_on =
+            attempt_one(attempt, number, entries[static_cast<std::size_t>(number)], description, folder);
+        if (goes_on && keep == Keep::nothing && !attempt.described.empty())
+            forget_content(attempt.described.back());
+        if (!goes_on || (state != nullptr && state->stop_is_raised())) counter.exhaust();
     }
     log.end_of_own_work();
     for (std::size_t s = 0; s < describe_step_names.size(); ++s) {
@@ -82,6 +105,18 @@ std::vector<std::pair<int, Error>> gather_failures(const Comm& comm, const Attem
     return failures;
 }
 
+void refuse_if_unwritable(const std::vector<std::pair<int, Error>>& failures) {
+    for (const auto& [number, error] : failures) {
+        if (error.code() == ExitCode::output) throw AgreedError(error.code(), error.what());
+    }
+}
+
+/// Ends the run if a rank has been asked to.
+void end_if_asked(const Comm& comm, const RunState& state, const Attempt& attempt, std::size_t entries) {
+    const auto described = all_sum(comm, static_cast<std::int64_t>(attempt.described.size()));
+    state.end_if_asked(comm, std::to_string(described) + " of " + std::to_string(entries) + " meshes");
+}
+
 void refuse_if_unusable(const std::vector<std::pair<int, Error>>& failures, std::size_t entries,
                         bool strict) {
     if (failures.empty()) return;
@@ -95,11 +130,10 @@ void refuse_if_unusable(const std::vector<std::pair<int, Error>>& failures, std:
 
 /// Renumbers the usable meshes of this rank: an entry's number less the unusable entries before it.
 void renumber(std::vector<MeshDescription>& described, const std::vector<std::pair<int, Error>>& failures) {
+    auto failure = failures.begin();  // both ascend
     for (MeshDescription& description : described) {
-        const auto before = std::count_if(failures.begin(), failures.end(), [&](const auto& failure) {
-            return failure.first < description.mesh;
-        });
-        description.mesh -= static_cast<int>(before);
+        while (failure != failures.end() && failure->first < description.mesh) ++failure;
+        description.mesh -= static_cast<int>(failure - failures.begin());
     }
 }
 
@@ -140,7 +174,7 @@ void share_warnings(const Comm& comm, Collection& collection) {
 }
 
 void share_facts(const Comm& comm, Collection& collection) {
-    constexpr std::size_t rows = 4;
+    constexpr std::size_t rows = 5;
     const std::size_t meshes = collection.meshes.size();
     std::vector<int> facts(rows * meshes, 0);
     std::vector<double> measures(2 * meshes, 0.0);
@@ -152,6 +186,7 @@ void share_facts(const Comm& comm, Collection& collection) {
         facts[rows * m + 3] = description.remeshed ? 1 : 0;
         measures[2 * m] = description.seconds;
         measures[2 * m + 1] = description.overlong_area;
+        facts[rows * m + 4] = description.reused ? 1 : 0;
     }
     facts = share_integers(comm, std::move(facts));
     MPI_Allreduce(MPI_IN_PLACE, measures.data(), static_cast<int>(measures.size()), MPI_DOUBLE, MPI_SUM,
@@ -164,16 +199,62 @@ void share_facts(const Comm& comm, Collection& collection) {
         mesh.remeshed = facts[rows * m + 3] != 0;
         mesh.seconds = measures[2 * m];
         mesh.overlong_area = measures[2 * m + 1];
+        mesh.reused = facts[rows * m + 4] != 0;
     }
     share_warnings(comm, collection);
 }
 
 }  // namespace
 
-Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
-                               const RunOptions& options, StageLog& log) {
-    Attempt attempt = describe_dealt_meshes(comm, entries, options, log);
+std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs) {
+    std::vector<MeshEntry> entries;
+    agree(comm, [&] {
+        if (comm.is_root()) entries = expand_mesh_list(inputs);
+    });
+    std::vector<std::string> names;
+    std::vector<std::string> paths;
+    std::vector<std::string> sizes;
+    for (const MeshEntry& entry : entries) {
+        names.push_back(entry.name);
+        paths.push_back(entry.path);
+        sizes.push_back(std::to_string(entry.bytes));
+    }
+    broadcast_texts(comm, names);
+    broadcast_texts(comm, paths);
+    broadcast_texts(comm, sizes);
+    entries.resize(names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) entries[k] = {names[k], paths[k], std::stoull(sizes[k])};
+    return entries;
+}
+
+DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                   const RunOptions& options, const RunState& state, StageLog& log) {
+    const Attempt attempt = describe_dealt_meshes(comm, entries, options, &state, Keep::nothing, log);
     const std::vector<std::pair<int, Error>> failures = gather_failures(comm, attempt);
+    refuse_if_unwritable(failures);
+    end_if_asked(comm, state, attempt, entries.size());
+    if (!failures.empty()) refuse_if_unusable(failures, entries.size(), options.strict);
+    DescribeTotals totals;
+    std::vector<std::string> warnings;
+    std::int64_t reused = 0;
+    for (const MeshDescription& mesh : attempt.described) {
+        warnings.insert(warnings.end(), mesh.warnings.begin(), mesh.warnings.end());
+        if (mesh.reused) ++reused;
+    }
+    totals.reused = all_sum(comm, reused);
+    totals.described = all_sum(comm, static_cast<std::int64_t>(attempt.described.size())) - totals.reused;
+    totals.warnings = all_gather_texts(comm, warnings);
+    for (const auto& [number, error] : failures)
+        totals.set_aside.push_back({entries[static_cast<std::size_t>(number)].path, error.what()});
+    return totals;
+}
+
+Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
+                               const RunOptions& options, const RunState* state, StageLog& log) {
+    Attempt attempt = describe_dealt_meshes(comm, entries, options, state, Keep::all, log);
+    const std::vector<std::pair<int, Error>> failures = gather_failures(comm, attempt);
+    refuse_if_unwritable(failures);
+    if (state != nullptr) end_if_asked(comm, *state, attempt, entries.size());
     refuse_if_unusable(failures, entries.size(), options.strict);
 
     Collection collection;

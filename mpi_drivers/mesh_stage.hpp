@@ -7,6 +7,7 @@
 #include "io/mesh_list.hpp"
 #include "mpi_drivers/mesh_description.hpp"
 #include "mpi_drivers/run_options.hpp"
+#include "mpi_drivers/run_state.hpp"
 #include "src/comm.hpp"
 #include "src/patch_numbering.hpp"
 #include "src/stage_log.hpp"
@@ -23,6 +24,7 @@ struct MeshFacts {
     bool remeshed = false;
     double overlong_area = 0.0;  ///< see src/face_suitability.hpp
     double seconds = 0.0;
+    bool reused = false;  ///< its description came from the state folder
     std::vector<std::string> warnings;
 };
 
@@ -38,9 +40,26 @@ struct Collection {
     PatchNumbering numbering{1, {}};     ///< all ranks
 };
 
-/// Collective. Throws AgreedError(input) if no mesh can be used, or with options.strict if any cannot.
+/// The meshes that a command line names, in the collection's order, on all ranks. Rank 0 alone asks the file system.
+/// Collective; throws AgreedError(input) as expand_mesh_list does.
+std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs);
+
+/// Collective. Throws AgreedError(input) if no mesh can be used, or with options.strict if any cannot. With a state (may
+/// be null) descriptions are taken from its folder and kept there; throws AgreedError(output) if one cannot be
+/// written, AgreedError(checkpointed) if a rank has been asked to end.
 /// What each rank computes depends on the schedule; the result, apart from `owner` and `seconds`, does not.
 Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
-                               const RunOptions& options, StageLog& log);
+                               const RunOptions& options, const RunState* state, StageLog& log);
+
+struct DescribeTotals {
+    std::int64_t described = 0;
+    std::int64_t reused = 0;
+    std::vector<SetAside> set_aside;
+    std::vector<std::string> warnings;  ///< the same on all ranks, like the rest
+};
+
+/// Descriptions into the folder of `state`, none of them kept in memory. Collective; throws as describe_collection.
+DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                   const RunOptions& options, const RunState& state, StageLog& log);
 
 }  // namespace coseg

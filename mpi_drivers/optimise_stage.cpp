@@ -90,7 +90,7 @@ SubspaceProblem subspace_problem(const Collection& collection, const PatchFeatur
 }
 
 Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunOptions& options) {
+                      const RunOptions& options, SolveJournal* journal) {
     agree(comm, [&] { refuse_contradictions(options); });
     const int feature = chosen_feature(features, options);
     const SubspaceProblem problem = subspace_problem(collection, features, options);
@@ -107,7 +107,8 @@ Optimisation optimise(const Comm& comm, const Collection& collection, const Patc
     const SolveOptions solve{.gap = options.gap,
                              .max_iterations = options.max_iterations,
                              .max_seconds = options.max_seconds,
-                             .solver = options.solver};
+                             .solver = options.solver,
+                             .journal = journal};
     done.result = solve_variant(comm, problem, variant_of(options.variant), feature, solve);
     done.features = feature_labels(features, options);
     done.warning = limit_warning(done.result);

@@ -32,9 +32,9 @@ struct Optimisation {
 SubspaceProblem subspace_problem(const Collection& collection, const PatchFeatures& features,
                                  const RunOptions& options);
 
-/// Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what solve_variant throws.
+/// journal: see SolveOptions. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what solve_variant throws.
 Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunOptions& options);
+                      const RunOptions& options, SolveJournal* journal = nullptr);
 
 /// One line for the log.
 std::string describe(const Optimisation& optimisation);

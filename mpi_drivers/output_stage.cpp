@@ -157,6 +157,7 @@ void write_run_report(const Comm& comm, const ResultFolder& folder, const RunOut
     report.options = outcome.resolved;
     report.versions = library_versions();
     add_run_facts(comm, report, log);
+    report.state = outcome.state;
     report.meshes = report_meshes(outcome, part_areas);
     for (const SetAside& mesh : outcome.collection.set_aside)
         report.set_aside.emplace_back(mesh.path, mesh.reason);

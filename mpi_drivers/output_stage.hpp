@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/output_directory.hpp"
+#include "io/report.hpp"
 #include "mpi_drivers/cut_stage.hpp"
 #include "mpi_drivers/feature_stage.hpp"
 #include "mpi_drivers/label_stage.hpp"
@@ -49,6 +50,7 @@ struct RunOutcome {
     const std::vector<MeshLabels>& labels;
     const RunOptions& options;
     const std::vector<std::pair<std::string, std::string>>& resolved;
+    ReportState state;
 };
 
 /// Collective: report.json, by rank 0.

@@ -77,15 +77,16 @@ CLI::Option* RunOptionTable::add_switch(CLI::App& app, const std::string& key, b
     return app.add_flag("--" + key + ",!--no-" + key, variable, help + standard)->group(group);
 }
 
-RunOptionTable::RunOptionTable(CLI::App& app, RunOptions& options) : options_(options) {
-    add_input_and_output(app);
-    add_picture(app);
+RunOptionTable::RunOptionTable(CLI::App& app, RunOptions& options, OptionSet set) : options_(options) {
+    add_input_and_output(app, set);
+    if (set == OptionSet::run) add_picture(app);
     add_patches_and_features(app);
+    if (set == OptionSet::describe) return;
     add_optimisation(app);
     add_partition(app);
 }
 
-void RunOptionTable::add_input_and_output(CLI::App& app) {
+void RunOptionTable::add_input_and_output(CLI::App& app, OptionSet set) {
     // The preset is the first option because CLI11 runs callbacks in the order of definition: what else is given overrides it.
     printers_.emplace_back("preset", [this] { return options_.preset; });
     app.add_option_function<std::string>(
@@ -100,13 +101,7 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
                    "Meshes (OFF, OBJ, PLY, STL), folders of them, or @LIST: a file with a path a line")
         ->required()
         ->type_name("MESH|DIRECTORY|@LIST");
-    add(app, "parts", options_.parts, "Number of parts K that the shapes are cut into", in_out_group)
-        ->required()
-        ->check(CLI::Range(1, 1000));
-    add(app, "out", options_.out, "Folder for the results; must be new or empty unless --force", in_out_group)
-        ->required();
-    add_switch(app, "force", options_.force, "Replace earlier results in a folder that is not empty",
-               in_out_group);
+    if (set == OptionSet::run) add_results(app);
     add_switch(app, "strict", options_.strict,
                "A mesh that cannot be used ends the run instead of being set aside", in_out_group);
     add_switch(app, "keep-features", options_.keep_features,
@@ -120,6 +115,7 @@ void RunOptionTable::add_input_and_output(CLI::App& app) {
     app.add_option("--ranks", ranks_, "Ranks of a run that is started without mpirun; 0: one for each core")
         ->check(CLI::Range(0, 100000))
         ->group(in_out_group);
+    add_state(app, set);
     add(app, "config", options_.config, "Read options from a TOML or INI file; the command line wins",
         in_out_group)
         ->type_name("FILE");
@@ -135,6 +131,28 @@ void RunOptionTable::add_picture(CLI::App& app) {
         ->check(view_name);
     add(app, "up", options_.up, "The axis that points up: auto, x, y, z", picture_group)
         ->check(CLI::IsMember({"auto", "x", "y", "z"}));
+}
+
+void RunOptionTable::add_results(CLI::App& app) {
+    add(app, "parts", options_.parts, "Number of parts K that the shapes are cut into", in_out_group)
+        ->required()
+        ->check(CLI::Range(1, 1000));
+    add(app, "out", options_.out, "Folder for the results; must be new or empty unless --force", in_out_group)
+        ->required();
+    add_switch(app, "force", options_.force, "Replace earlier results in a folder that is not empty",
+               in_out_group);
+}
+
+void RunOptionTable::add_state(CLI::App& app, OptionSet set) {
+    add(app, "state", options_.state,
+        "Folder that keeps what is computed: a later run uses what still holds, one that was ended continues",
+        in_out_group)
+        ->type_name("DIR")
+        ->required(set == OptionSet::describe);
+    if (set == OptionSet::describe) return;
+    add(app, "checkpoint-seconds", options_.checkpoint_seconds,
+        "With --state: the optimiser's progress is written so often", in_out_group)
+        ->check(CLI::Range(0.0, 1e9));
 }
 
 void RunOptionTable::add_patches_and_features(CLI::App& app) {

@@ -12,16 +12,23 @@
 
 namespace coseg {
 
-/// Adds every option to `app` and remembers how to print its resolved value. `options` must outlive both.
+enum class OptionSet {
+    run,       ///< all
+    describe,  ///< those of `coseg describe`: --state is required, what concerns results is left out
+};
+
+/// Adds every option of the set to `app` and remembers how to print its resolved value. `options` must outlive both.
 class RunOptionTable {
   public:
-    RunOptionTable(CLI::App& app, RunOptions& options);
+    RunOptionTable(CLI::App& app, RunOptions& options, OptionSet set = OptionSet::run);
 
     /// (key, value) of every option after parsing, in the order of --help.
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> resolved() const;
 
   private:
-    void add_input_and_output(CLI::App& app);
+    void add_input_and_output(CLI::App& app, OptionSet set);
+    void add_results(CLI::App& app);
+    void add_state(CLI::App& app, OptionSet set);
     void add_picture(CLI::App& app);
     void add_patches_and_features(CLI::App& app);
     void add_optimisation(CLI::App& app);

@@ -21,6 +21,8 @@ struct RunOptions {
     bool json_log = false;
     bool keep_features = false;
     std::uint64_t seed = 1;
+    std::string state;
+    double checkpoint_seconds = 60.0;
 
     std::string remesh = "auto";
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "solvers/column_model.hpp"
@@ -40,8 +41,6 @@ struct Totals {
     int passes = 0;
     std::int64_t working_pairs = 0;
     bool limited = false;
-    bool timed_out = false;
-    bool rounding = false;
     double residual = 0.0;
 };
 
@@ -57,9 +56,10 @@ class MeshScopeSolver {
           start_(MPI_Wtime()) {}
 
     /// The columns [begin, end) of the problem, each solved; a function of these columns alone.
-    std::vector<Column> solve_tile(std::int64_t begin, std::int64_t end);
+    SolvedTile solve_tile(std::int64_t begin, std::int64_t end);
 
-    [[nodiscard]] const Totals& totals() const noexcept { return totals_; }
+    /// The clock has cut a tile short: the last one solved depends on the machine.
+    [[nodiscard]] bool timed_out() const noexcept { return timed_out_; }
     [[nodiscard]] const FeatureStack& stack() const noexcept { return stack_; }
     [[nodiscard]] int patch(int place) const { return meshes_.order[static_cast<std::size_t>(place)]; }
 
@@ -71,6 +71,7 @@ class MeshScopeSolver {
     void judge(Column& column, const ColumnVerdict& verdict) const;
     bool add_violators(Column& column, const ColumnVerdict& verdict) const;
     void solve_working_set(Column& column);
+    void append_column(const Column& column, SolvedTile& tile) const;
 
     const SolveOptions& options_;
     ColumnPenalties penalties_;
@@ -79,7 +80,7 @@ class MeshScopeSolver {
     MeshScopePass pass_;
     const std::vector<std::vector<int>>& allowed_meshes_;
     double start_;
-    Totals totals_;
+    bool timed_out_ = false;
 };
 
 Column MeshScopeSolver::start_column(std::int64_t patch) const {
@@ -110,7 +111,7 @@ std::vector<int> MeshScopeSolver::allowed_groups(int mesh) const {
     return groups;
 }
 
-std::vector<Column> MeshScopeSolver::solve_tile(std::int64_t begin, std::int64_t end) {
+SolvedTile MeshScopeSolver::solve_tile(std::int64_t begin, std::int64_t end) {
     std::vector<Column> columns;
     for (std::int64_t j = begin; j < end; ++j) columns.push_back(start_column(j));
     const auto mesh_of = [&](const Column* column) {
@@ -131,15 +132,21 @@ std::vector<Column> MeshScopeSolver::solve_tile(std::int64_t begin, std::int64_t
                                               allowed_groups(mesh_of(order[first]))));
         first = last;
     }
-    totals_.passes = std::max(totals_.passes, passes);
+    SolvedTile tile;
+    tile.begin = begin;
+    tile.end = end;
+    tile.offsets = {0};
+    tile.passes = passes;
     for (const Column& column : columns) {
-        totals_.iterations = std::max(totals_.iterations, column.iterations);
-        totals_.working_pairs += static_cast<std::int64_t>(column.working.rows.size());
-        totals_.residual = std::max(totals_.residual, column.residual);
-        totals_.rounding = totals_.rounding || column.state == ColumnState::rounding_reached;
-        totals_.limited = totals_.limited || column.state == ColumnState::limit_reached;
+        tile.iterations = std::max(tile.iterations, column.iterations);
+        tile.working_pairs += static_cast<std::int64_t>(column.working.rows.size());
+        tile.residual = std::max(tile.residual, column.residual);
+        tile.limited = tile.limited || column.state == ColumnState::limit_reached;
+        tile.decrease.push_back(column.decrease);
+        tile.largest_decrease.push_back(column.largest_decrease);
+        append_column(column, tile);
     }
-    return columns;
+    return tile;
 }
 
 /// Pass, add, solve, until every column has its gap. Returns the number of passes.
@@ -170,7 +177,7 @@ int MeshScopeSolver::solve_batch(std::span<Column*> batch, const std::vector<int
         }
         exact = !any_added;
         if (out_of_time()) {
-            totals_.timed_out = true;
+            timed_out_ = true;
             for (Column* column : open) {
                 if (column->state == ColumnState::open) column->state = ColumnState::limit_reached;
             }
@@ -246,26 +253,42 @@ void MeshScopeSolver::solve_working_set(Column& column) {
 }
 
 /// Appends the column's nonzero pairs, rows back in the problem's order.
-void append_column(const MeshScopeSolver& solver, const Column& column, SparseCoefficients& sparse) {
-    const auto features = static_cast<std::size_t>(sparse.features);
+void MeshScopeSolver::append_column(const Column& column, SolvedTile& tile) const {
+    const auto features = static_cast<std::size_t>(stack_.features);
     std::vector<std::pair<int, std::size_t>> entries;
     for (std::size_t p = 0; p < column.working.rows.size(); ++p) {
         const auto begin = column.working.weights.begin() + static_cast<std::ptrdiff_t>(p * features);
         const bool positive = std::any_of(begin, begin + static_cast<std::ptrdiff_t>(features),
                                           [](double w) { return w > 0.0; });
-        if (positive) entries.emplace_back(solver.patch(column.working.rows[p]), p);
+        if (positive) entries.emplace_back(patch(column.working.rows[p]), p);
     }
     std::sort(entries.begin(), entries.end());
     for (const auto& [row, p] : entries) {
-        sparse.rows.push_back(row);
+        tile.rows.push_back(row);
         const auto begin = column.working.weights.begin() + static_cast<std::ptrdiff_t>(p * features);
-        sparse.values.insert(sparse.values.end(), begin, begin + static_cast<std::ptrdiff_t>(features));
+        tile.values.insert(tile.values.end(), begin, begin + static_cast<std::ptrdiff_t>(features));
     }
-    sparse.offsets.push_back(static_cast<std::int64_t>(sparse.rows.size()));
+    tile.offsets.push_back(static_cast<std::int64_t>(tile.rows.size()));
 }
 
-void finish_result(const Comm& comm, const Totals& totals, const FeatureStack& stack, double gap,
+/// Takes a finished tile into this rank's part of the answer.
+void add_tile(const SolvedTile& tile, SparseCoefficients& sparse, ExactSum& sums, Totals& totals) {
+    const std::int64_t before = sparse.offsets.back();
+    for (std::size_t c = 1; c < tile.offsets.size(); ++c) sparse.offsets.push_back(before + tile.offsets[c]);
+    sparse.rows.insert(sparse.rows.end(), tile.rows.begin(), tile.rows.end());
+    sparse.values.insert(sparse.values.end(), tile.values.begin(), tile.values.end());
+    for (const double decrease : tile.decrease) sums.add_scalar(0, decrease);
+    for (const double decrease : tile.largest_decrease) sums.add_scalar(1, decrease);
+    totals.iterations = std::max(totals.iterations, tile.iterations);
+    totals.passes = std::max(totals.passes, tile.passes);
+    totals.working_pairs += tile.working_pairs;
+    totals.residual = std::max(totals.residual, tile.residual);
+    totals.limited = totals.limited || tile.limited;
+}
+
+void finish_result(const Comm& comm, const Totals& totals, const MeshScopeSolver& solver, double gap,
                    ExactSum& sums, SolveResult& result) {
+    const FeatureStack& stack = solver.stack();
     sums.reduce(comm);
     const double decrease = sums.scalar(0);
     const double largest_decrease = sums.scalar(1) * (1.0 + 1e-15);
@@ -281,7 +304,7 @@ void finish_result(const Comm& comm, const Totals& totals, const FeatureStack& s
     result.passes = static_cast<int>(all_max(comm, totals.passes));
     result.working_pairs = all_sum(comm, totals.working_pairs);
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
-    const bool timed_out = all_max(comm, totals.timed_out ? 1.0 : 0.0) > 0.0;
+    const bool timed_out = all_max(comm, solver.timed_out() ? 1.0 : 0.0) > 0.0;
     const bool limited = all_max(comm, totals.limited ? 1.0 : 0.0) > 0.0;
     if (result.relative_gap <= gap) {
         result.reason = StopReason::gap_reached;
@@ -300,14 +323,21 @@ SolveResult solve_mesh_scope(const Comm& comm, const SubspaceProblem& problem, c
     const BlockRange owned = block_range(problem.size(), comm.size(), comm.rank(), coefficient_tile);
     result.coefficients = {problem.size(), owned, problem.feature_count(), {0}, {}, {}};
     ExactSum sums(0, 1.0, 2);
-    for (std::int64_t begin = owned.begin; begin < owned.end; begin += coefficient_tile) {
-        for (const Column& column : solver.solve_tile(begin, std::min(begin + coefficient_tile, owned.end))) {
-            sums.add_scalar(0, column.decrease);
-            sums.add_scalar(1, column.largest_decrease);
-            append_column(solver, column, result.coefficients);
-        }
+    Totals totals;
+    bool stopped = false;
+    SolveJournal* journal = options.journal;
+    if (journal != nullptr) journal->open(problem, options, owned);
+    for (std::int64_t begin = owned.begin; begin < owned.end && !stopped; begin += coefficient_tile) {
+        const std::optional<SolvedTile> known = journal != nullptr ? journal->find(begin) : std::nullopt;
+        const SolvedTile tile =
+            known ? *known : solver.solve_tile(begin, std::min(begin + coefficient_tile, owned.end));
+        add_tile(tile, result.coefficients, sums, totals);
+        if (journal == nullptr) continue;
+        if (!known && !solver.timed_out()) journal->keep(tile);
+        stopped = journal->should_stop();
     }
-    finish_result(comm, solver.totals(), solver.stack(), options.gap, sums, result);
+    if (journal != nullptr) journal->close(stopped);
+    finish_result(comm, totals, solver, options.gap, sums, result);
     return result;
 }
 

@@ -4,16 +4,18 @@
 #include <string>
 
 #include "solvers/coefficients.hpp"
+#include "solvers/solve_journal.hpp"
 #include "solvers/subspace_problem.hpp"
 #include "src/comm.hpp"
 
 namespace coseg {
 
 struct SolveOptions {
-    double gap = 1e-4;            ///< stop at this relative gap; see SolveResult::relative_gap
-    int max_iterations = 200000;  ///< of the inner method; scope mesh: per column
-    double max_seconds = 3600.0;  ///< wall time
-    std::string solver = "auto";  ///< "auto", "dense" (scope paper only) or "working-set"
+    double gap = 1e-4;                ///< stop at this relative gap; see SolveResult::relative_gap
+    int max_iterations = 200000;      ///< of the inner method; scope mesh: per column
+    double max_seconds = 3600.0;      ///< wall time
+    std::string solver = "auto";      ///< "auto", "dense" (scope paper only) or "working-set"
+    SolveJournal* journal = nullptr;  ///< scope mesh: keeps finished tiles; none by default
 };
 
 enum class StopReason { gap_reached, residual_reached, iteration_limit, time_limit };

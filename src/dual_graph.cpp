@@ -33,23 +33,6 @@ DualEdge make_edge(const TriMesh& mesh, const FaceGeometry& geometry, const Half
     return edge;
 }
 
-void index_incidence(DualGraph& graph) {
-    graph.offsets.assign(static_cast<std::size_t>(graph.face_count) + 1, 0);
-    for (const DualEdge& e : graph.edges) {
-        ++graph.offsets[static_cast<std::size_t>(e.face_a) + 1];
-        ++graph.offsets[static_cast<std::size_t>(e.face_b) + 1];
-    }
-    std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
-    graph.incident.resize(graph.edges.size() * 2);
-    std::vector<int> next(graph.offsets.begin(), graph.offsets.end() - 1);
-    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-        for (const int f : {graph.edges[e].face_a, graph.edges[e].face_b}) {
-            graph.incident[static_cast<std::size_t>(next[static_cast<std::size_t>(f)]++)] =
-                static_cast<int>(e);
-        }
-    }
-}
-
 void sort_edges(std::vector<DualEdge>& edges) {
     std::sort(edges.begin(), edges.end(), [](const DualEdge& x, const DualEdge& y) {
         return std::array{x.face_a, x.face_b, x.vertex_a, x.vertex_b} <
@@ -93,6 +76,23 @@ void join_components(DualGraph& graph, const FaceGeometry& geometry) {
 }
 
 }  // namespace
+
+void index_incidence(DualGraph& graph) {
+    graph.offsets.assign(static_cast<std::size_t>(graph.face_count) + 1, 0);
+    for (const DualEdge& e : graph.edges) {
+        ++graph.offsets[static_cast<std::size_t>(e.face_a) + 1];
+        ++graph.offsets[static_cast<std::size_t>(e.face_b) + 1];
+    }
+    std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
+    graph.incident.resize(graph.edges.size() * 2);
+    std::vector<int> next(graph.offsets.begin(), graph.offsets.end() - 1);
+    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+        for (const int f : {graph.edges[e].face_a, graph.edges[e].face_b}) {
+            graph.incident[static_cast<std::size_t>(next[static_cast<std::size_t>(f)]++)] =
+                static_cast<int>(e);
+        }
+    }
+}
 
 DualGraph dual_graph(const TriMesh& mesh, const FaceGeometry& geometry) {
     DualGraph graph;

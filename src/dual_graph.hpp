@@ -40,6 +40,9 @@ struct DualGraph {
 /// to cut apart.
 DualGraph dual_graph(const TriMesh& mesh, const FaceGeometry& geometry);
 
+/// Fills `offsets` and `incident` from `face_count` and `edges`.
+void index_incidence(DualGraph& graph);
+
 /// Component number 0.. of every face when virtual edges are left out, numbered by lowest face.
 std::vector<int> face_components(const DualGraph& graph);
 

@@ -14,6 +14,7 @@ enum class ExitCode : int {
     input = 3,          ///< a mesh, label file, problem or list that cannot be used
     output = 4,         ///< a file or folder that cannot be written
     not_converged = 5,  ///< a solver stopped without an answer that can be trusted
+    checkpointed = 75,  ///< ended on a signal with the state written; the same command continues
 };
 
 /// A failure with the sentence that the user sees: it names file, line or face, and what to do.

@@ -22,12 +22,19 @@ SharedCounter::~SharedCounter() {
     MPI_Win_free(&window_);
 }
 
-std::int64_t SharedCounter::next() {
-    const std::int64_t one = 1;
+std::int64_t SharedCounter::fetch_and_add(std::int64_t addend) {
     std::int64_t before = 0;
-    MPI_Fetch_and_op(&one, &before, MPI_INT64_T, 0, 0, MPI_SUM, window_);
+    MPI_Fetch_and_op(&addend, &before, MPI_INT64_T, 0, 0, MPI_SUM, window_);
     MPI_Win_flush(0, window_);
     return before;
 }
+
+std::int64_t SharedCounter::next() { return fetch_and_add(1); }
+
+void SharedCounter::exhaust() {
+    if (!is_exhausted()) fetch_and_add(exhausted);  // two ranks at once stay far from the integer's end
+}
+
+bool SharedCounter::is_exhausted() { return fetch_and_add(0) >= exhausted; }
 
 }  // namespace coseg

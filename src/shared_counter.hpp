@@ -20,7 +20,13 @@ class SharedCounter {
 
     [[nodiscard]] std::int64_t next();
 
+    /// From now on next() gives nobody less than `exhausted`: a rank's way of telling the others to stop.
+    void exhaust();
+    [[nodiscard]] bool is_exhausted();
+    static constexpr std::int64_t exhausted = std::int64_t{1} << 48;
+
   private:
+    std::int64_t fetch_and_add(std::int64_t addend);
     MPI_Win window_ = MPI_WIN_NULL;
     std::int64_t* value_ = nullptr;
 };

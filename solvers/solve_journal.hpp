@@ -1,0 +1,53 @@
+#pragma once
+// How a solver hands out what it has finished and takes it back after a restart.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "solvers/subspace_problem.hpp"
+#include "src/block_range.hpp"
+
+namespace coseg {
+
+struct SolveOptions;
+
+/// The outcome of the columns [begin, end), a whole tile of the optimiser: a function of the problem and the options, not
+/// of the rank that solved it.
+struct SolvedTile {
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+    std::vector<std::int64_t> offsets;  ///< end - begin + 1, into rows; as in SparseCoefficients
+    std::vector<int> rows;
+    std::vector<double> values;            ///< H a row
+    std::vector<double> decrease;          ///< per column
+    std::vector<double> largest_decrease;  ///< per column
+    double residual = 0.0;
+    int iterations = 0;
+    int passes = 0;
+    std::int64_t working_pairs = 0;
+    bool limited = false;  ///< a column stopped at the iteration limit
+};
+
+/// Where finished tiles go. A solver calls open() once, then the members in between for the columns that a rank owns, in
+/// ascending order, then close().
+class SolveJournal {
+  public:
+    SolveJournal() = default;
+    virtual ~SolveJournal() = default;
+    SolveJournal(const SolveJournal&) = delete;
+    SolveJournal& operator=(const SolveJournal&) = delete;
+
+    /// Collective: the problem that the tiles belong to, and the columns that this rank will ask for. Throws AgreedError.
+    virtual void open(const SubspaceProblem& problem, const SolveOptions& options, BlockRange owned) = 0;
+    /// The tile that begins at this column, if it was finished before.
+    virtual std::optional<SolvedTile> find(std::int64_t begin) = 0;
+    virtual void keep(const SolvedTile& tile) = 0;
+    /// True as soon as the solver should end early: some rank has been asked to, or a tile could not be kept.
+    virtual bool should_stop() = 0;
+    /// Collective, after the last tile of every rank. Throws AgreedError if the solver ended early on any rank
+    /// (`stopped`) or a tile could not be kept; returns if the solution is complete.
+    virtual void close(bool stopped) = 0;
+};
+
+}  // namespace coseg
