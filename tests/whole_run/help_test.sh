@@ -22,7 +22,7 @@ for word in 'coseg run' 'coseg render' 'feature\\-weights' 'EXIT STATUS'; do
     grep -q -- "$word" "$work/coseg.1" || fail "the manual page does not name $word"
 done
 if command -v groff >/dev/null; then
-    [[ -z $(groff -man -Tascii -ww "$work/coseg.1" 2>&1 >/dev/null) ]] || fail "groff complains of the manual page"
+    [[ -z $(groff -man -Tascii -ww -W break "$work/coseg.1" 2>&1 >/dev/null) ]] || fail "groff complains of the manual page"
 fi
 "$COSEG" completion >"$work/completion"
 complete_line() { # WORD... : what bash offers for the last word
