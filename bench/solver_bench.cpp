@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -253,10 +254,7 @@ void run(const Settings& settings) {
     if (comm.is_root()) std::cout << report.dump(2) << std::endl;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
+int parse_and_run(int argc, char** argv) {
     Settings settings;
     CLI::App app("Cost of the subspace solvers");
     app.add_option("--sizes", settings.sizes, "Numbers of patches")->delimiter(',')->capture_default_str();
@@ -270,15 +268,24 @@ int main(int argc, char** argv) {
     app.add_option("--clusters", settings.clusters, "Also cut the answer into so many clusters")
         ->delimiter(',');
     app.add_option("--gap", settings.gap, "Relative gap")->capture_default_str();
-    int status = 0;
     try {
         app.parse(argc, argv);
-        run(settings);
     } catch (const CLI::ParseError& error) {
-        status = app.exit(error);
-    } catch (const coseg::Error& error) {
-        std::cerr << error.what() << "\n";
-        status = static_cast<int>(error.code());
+        return app.exit(error);
+    }
+    run(settings);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    int status = 1;
+    try {
+        status = parse_and_run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
     }
     MPI_Finalize();
     return status;
