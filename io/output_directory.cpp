@@ -8,6 +8,7 @@
 #include <charconv>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -71,12 +72,22 @@ std::string staging_prefix(const std::string& path) {
     return (fs::is_directory(path, ignored) ? path + "/" : path) + own_mark();
 }
 
+/// Ended, but not yet seen to by its parent, which in a container may be never.
+bool is_zombie(pid_t process) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+    std::string line;
+    std::getline(file, line);  // number (name) state ..., where the name may hold anything
+    const std::size_t name_end = line.rfind(')');
+    return name_end != std::string::npos && line.compare(name_end, 3, ") Z") == 0;
+}
+
 bool is_of_dead_process(const std::string& number) {
     pid_t process = 0;
     const char* end = number.data() + number.size();
     const auto [stop, error] = std::from_chars(number.data(), end, process);
     if (error != std::errc() || stop != end || process <= 0) return false;
-    return ::kill(process, 0) != 0 && errno == ESRCH;
+    if (::kill(process, 0) != 0) return errno == ESRCH;
+    return is_zombie(process);
 }
 
 /// A process that is killed cannot tidy up: the next run on this machine that writes to the same place does.

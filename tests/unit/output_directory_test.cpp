@@ -140,6 +140,25 @@ pid_t ended_process() {
     return child;
 }
 
+TEST(OutputDirectory, AProcessThatNobodyHasSeenToIsDead) {
+    const TemporaryFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    siginfo_t ended;
+    ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT);  // ended, and still there
+    std::string left;
+    {
+        const OutputDirectory output(folder.path("out"), false);
+        left = output.staging();
+        left.resize(left.size() - std::to_string(::getpid()).size());
+    }
+    left += std::to_string(child);
+    fs::create_directory(left);
+    const OutputDirectory output(folder.path("out"), false);
+    EXPECT_FALSE(fs::exists(left));
+    ::waitpid(child, nullptr, 0);
+}
+
 TEST(OutputDirectory, WhatKilledRunsLeftGoesWithTheNext) {
     const TemporaryFolder folder;
     for (const bool inside : {false, true}) {
