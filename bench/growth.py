@@ -91,8 +91,8 @@ class Bench:
 
     def run(self, files, ranks, *options):
         with tempfile.TemporaryDirectory(dir=self.scratch) as out:
-            command_output([self.options.coseg, "run", "--ranks", ranks, "--quiet", "--parts", 3,
-                            "--force", "--out", out, *options, *files])
+            command_output([self.options.coseg, "run", "--ranks", ranks, "--quiet", "--no-sheet", "--no-html",
+                            "--parts", 3, "--force", "--out", out, *options, *files])
             report = json.loads((pathlib.Path(out) / "report.json").read_text(encoding="utf-8"))
         stages = {stage["stage"]: stage for stage in report["stages"]}
         describe = stages["describe"]

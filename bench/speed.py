@@ -5,8 +5,8 @@
 
 Every round runs coseg on --ranks ranks over the folder and then the peer over the same files, split over as many
 processes; so both see the same machine, and ratios are taken within a round. Wall seconds are from the start of the
-command to its end, CPU seconds what its processes used (ranks that wait are busy). Each run begins with no results
-of the one before. Options after `--` go to `coseg run`. Without --peer only coseg is measured.
+command to its end, from files to written labels (no pictures, no page), CPU seconds what its processes used (ranks
+that wait are busy). Each run begins with no results of the one before. Options after `--` go to `coseg run`. Without --peer only coseg is measured.
 """
 
 import argparse
@@ -105,6 +105,7 @@ class Bench:
     def run_coseg(self):
         o = self.options
         command = [o.mpirun, "-n", str(o.ranks), "--oversubscribe", str(o.coseg), "run", "--quiet"]
+        command += ["--no-sheet", "--no-html"]  # the peer makes no pictures either
         command += ["--parts", str(o.parts), "--out", str(self.scratch / "coseg"), *o.extra, *map(str, self.files)]
         measured = self.in_empty_folder("coseg", [command])
         with open(self.scratch / "coseg" / "report.json", encoding="utf-8") as file:
