@@ -16,10 +16,9 @@ class AppendedArrays {
   public:
     template <class T, class Values>
     std::string add(const std::string& type, const std::string& name, int components, const Values& values) {
-        const std::string element = "<DataArray type=\"" + type + "\" Name=\"" + name +
-                                    "\" NumberOfComponents=\"" + std::to_string(components) +
-                                    "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) +
-                                    "\"/>\n";
+        std::string element = "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                              std::to_string(components) + "\" format=\"appended\" offset=\"" +
+                              std::to_string(bytes_.size()) + "\"/>\n";
         append_little_endian(bytes_, static_cast<std::uint64_t>(values.size() * sizeof(T)));
         for (const auto& value : values) append_little_endian(bytes_, static_cast<T>(value));
         return element;
