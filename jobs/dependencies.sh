@@ -16,7 +16,7 @@ coseg_packages=(
 )
 
 # To build and run the tests as well.
-coseg_test_packages=(libgtest-dev python3 clang-format clang-tidy shellcheck procps)
+coseg_test_packages=(libgtest-dev python3 clang-format clang-tidy shellcheck procps file)
 
 # missing_packages NAME... : those that are not installed, one a line.
 missing_packages() {

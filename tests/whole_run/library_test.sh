@@ -22,10 +22,9 @@ peanut "$work/b.off" 0.6
 [[ $(wc -l <"$work/two_meshes_result/labels/b.seg") -eq 1104 ]] || fail "the example's labels"
 echo "ok: the library"
 
-if ! command -v dpkg-deb >/dev/null || ! command -v cpack >/dev/null; then
-    echo "skipped in part: no dpkg or cpack"
-    exit 0
-fi
+for program in dpkg-deb cpack file; do # cpack asks file(1) which of the files are programs
+    command -v "$program" >/dev/null || { echo "skipped in part: no $program"; exit 0; }
+done
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/pack" >"$work/log" 2>&1 || { tail "$work/log"; fail "cpack"; }
 dpkg-deb --info "$work"/pack/coseg_*.deb >"$work/info"
 grep -q "Depends: .*petsc" "$work/info" || fail "the package does not depend on PETSc: $(cat "$work/info")"
