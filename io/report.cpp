@@ -40,7 +40,8 @@ Json of_state(const ReportState& state) {
             {"meshes_reused", state.meshes_reused},
             {"meshes_described", state.meshes_described},
             {"tiles_reused", state.tiles_reused},
-            {"tiles_solved", state.tiles_solved}};
+            {"tiles_solved", state.tiles_solved},
+            {"cuts_reused", state.cuts_reused}};
 }
 
 Json of_meshes(const std::vector<ReportMesh>& meshes) {

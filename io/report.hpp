@@ -83,6 +83,7 @@ struct ReportState {
     std::int64_t meshes_described = 0;
     std::int64_t tiles_reused = 0;  ///< of the optimiser
     std::int64_t tiles_solved = 0;
+    std::int64_t cuts_reused = 0;
 };
 
 struct Report {

@@ -115,6 +115,10 @@ std::string StateFolder::solver_folder(const ContentHash& key) const {
     return path_ + "/solver/" + key.hex();
 }
 
+std::string StateFolder::cut_file(const ContentHash& key) const {
+    return path_ + "/cuts/" + key.hex() + ".h5";
+}
+
 std::string StateFolder::set_aside(const std::string& file) const {
     const fs::path folder = fs::path(path_) / "damaged";
     std::error_code cause;
@@ -128,7 +132,7 @@ std::string StateFolder::set_aside(const std::string& file) const {
 
 std::vector<StateFile> StateFolder::files() const {
     std::vector<StateFile> found;
-    for (const char* kind : {"meshes", "solver"}) {
+    for (const char* kind : {"meshes", "solver", "cuts"}) {
         collect(
             fs::path(path_) / kind,
             [](const fs::path& path) { return path.extension() == ".h5" && !is_temporary(path); }, found);

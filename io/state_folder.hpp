@@ -17,7 +17,8 @@ struct StateFile {
 };
 
 /// DIR/coseg-state marks the folder as ours; DIR/lock is that of StateLock; DIR/meshes/AB/HASH.h5 holds one mesh's
-/// description; DIR/solver/HASH/ the optimiser's tiles; DIR/damaged/ what was set aside. Nothing here communicates.
+/// description; DIR/solver/HASH/ the optimiser's progress; DIR/cuts/HASH.h5 a cut's outcome; DIR/damaged/ what was set
+/// aside. Nothing here communicates.
 class StateFolder {
   public:
     /// Makes what is missing. Throws Error(output) if DIR cannot be made or holds other things without our mark.
@@ -32,11 +33,12 @@ class StateFolder {
     /// 256 subfolders by the hash's first byte.
     [[nodiscard]] std::string mesh_file(const ContentHash& key) const;
     [[nodiscard]] std::string solver_folder(const ContentHash& key) const;
+    [[nodiscard]] std::string cut_file(const ContentHash& key) const;
 
     /// Moves a damaged file to DIR/damaged/ and returns its new path; removes it if it cannot be moved.
     [[nodiscard]] std::string set_aside(const std::string& file) const;
 
-    /// All HDF5 files of meshes/ and solver/, by path.
+    /// All HDF5 files of meshes/, solver/ and cuts/, by path.
     [[nodiscard]] std::vector<StateFile> files() const;
     /// Those of DIR/damaged/, and what killed runs left under temporary names anywhere in DIR.
     [[nodiscard]] std::vector<StateFile> leftovers() const;

@@ -12,6 +12,7 @@
 #include "mpi_drivers/cut_stage.hpp"
 #include "mpi_drivers/feature_output.hpp"
 #include "mpi_drivers/feature_stage.hpp"
+#include "mpi_drivers/kept_cut.hpp"
 #include "mpi_drivers/label_stage.hpp"
 #include "mpi_drivers/mesh_stage.hpp"
 #include "mpi_drivers/optimise_stage.hpp"
@@ -138,58 +139,82 @@ std::string significant(double value) {
     return text;
 }
 
+/// What finds and keeps the results of the optimiser and the cut in a state folder.
+struct Journals {
+    Journals(const Comm& comm, const RunState& state,
+             const std::vector<std::pair<std::string, std::string>>& resolved,
+             const std::vector<std::string>& petsc_arguments)
+        : tiles(comm, state), cuts(comm, state, cut_option_text(resolved, petsc_arguments)) {}
+    TileJournal tiles;
+    CutJournal cuts;
+};
+
+SolveJournal* tiles_of(Journals* journals) { return journals != nullptr ? &journals->tiles : nullptr; }
+CutJournal* cuts_of(Journals* journals) { return journals != nullptr ? &journals->cuts : nullptr; }
+
 struct Partitioned {
     Optimisation optimisation;
     CutResult cut;
 };
 
-Partitioned partition_whole(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                            const RunOptions& options, TileJournal* journal, StageLog& log) {
+/// In a large collection they are most of the memory, which the cut needs for its graphs.
+void release_histograms(PatchFeatures& features, const RunOptions& options) {
+    const bool still_wanted = options.partition == "diffusion" || options.segments;
+    if (!still_wanted) features.histograms.clear();
+}
+
+Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures& features,
+                            const RunOptions& options, Journals* journals, StageLog& log) {
     Partitioned done;
     log.begin("optimise");
-    done.optimisation = optimise(comm, collection, features, options, journal);
+    done.optimisation = optimise(comm, collection, features, options, tiles_of(journals));
     const SolveResult& solution = done.optimisation.result;
     log.end(describe(done.optimisation));
     if (options.parts > 1) refuse_empty_solution(solution, "the collection");
+    release_histograms(features, options);
     log.begin("cut");
-    done.cut = cut_into_parts(comm, collection, features, solution.coefficients, options);
+    done.cut = cut_or_found(comm, collection, features, solution.coefficients, options, cuts_of(journals));
     log.end(with_unit(static_cast<std::int64_t>(done.cut.starts.size()), "start", "starts") + ", " +
             std::to_string(options.parts) + " parts");
     return done;
 }
 
 Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
-                                 const PatchFeatures& features, const RunOptions& options, StageLog& log) {
+                                 const PatchFeatures& features, const RunOptions& options,
+                                 Journals* journals, StageLog& log) {
     log.begin("subsets");
-    SubsetOutcome outcome = partition_subsets(comm, collection, features, options);
+    SubsetOutcome outcome =
+        partition_subsets(comm, collection, features, options, tiles_of(journals), cuts_of(journals));
     log.end(with_unit(outcome.optimisation.subsets, "subset", "subsets") + ", " +
             with_unit(outcome.optimisation.common_meshes, "common shape", "common shapes") + ", " +
             significant(100.0 * outcome.optimisation.subset_agreement) + " % agreement on these");
     return {std::move(outcome.optimisation), std::move(outcome.cut)};
 }
 
-Partitioned partition_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                            const RunOptions& options, TileJournal* journal, StageLog& log) {
+Partitioned partition_stage(const Comm& comm, const Collection& collection, PatchFeatures& features,
+                            const RunOptions& options, Journals* journals, StageLog& log) {
     const bool whole = options.subsets == 0 || static_cast<int>(collection.meshes.size()) <= options.subsets;
-    Partitioned done = whole ? partition_whole(comm, collection, features, options, journal, log)
-                             : partition_in_subsets(comm, collection, features, options, log);
+    Partitioned done = whole ? partition_whole(comm, collection, features, options, journals, log)
+                             : partition_in_subsets(comm, collection, features, options, journals, log);
     if (!done.optimisation.warning.empty()) log.warn(done.optimisation.warning);
     if (options.segments) {
         log.begin("segments");
-        done.cut = partition_segments(comm, collection, features, done.cut, options);
+        done.cut = partition_segments(comm, collection, features, done.cut, options, tiles_of(journals),
+                                      cuts_of(journals));
         log.end("second pass");
     }
     return done;
 }
 
-ReportState summarised(const Comm& comm, const RunState& state, const TileJournal& journal,
+ReportState summarised(const Comm& comm, const RunState& state, const Journals& journals,
                        const Collection& collection) {
     ReportState summary;
     summary.folder = state.folder().path();
     for (const MeshFacts& mesh : collection.meshes)
         ++(mesh.reused ? summary.meshes_reused : summary.meshes_described);
-    summary.tiles_reused = all_sum(comm, std::int64_t{journal.found_count()});
-    summary.tiles_solved = all_sum(comm, std::int64_t{journal.kept_count()});
+    summary.tiles_reused = all_sum(comm, std::int64_t{journals.tiles.found_count()});
+    summary.tiles_solved = all_sum(comm, std::int64_t{journals.tiles.kept_count()});
+    summary.cuts_reused = journals.cuts.found_count();
     return summary;
 }
 
@@ -215,7 +240,7 @@ void co_segment(const Comm& comm, const RunOptions& options,
     Collection collection = describe_stage(comm, options, state ? &*state : nullptr, log);
 
     log.begin("features");
-    const PatchFeatures features = patch_features(comm, collection, options);
+    PatchFeatures features = patch_features(comm, collection, options);
     log.end(with_unit(static_cast<std::int64_t>(features.histograms.size()), "feature", "features") + " of " +
             std::to_string(options.bins) + " bins");
 
@@ -223,17 +248,18 @@ void co_segment(const Comm& comm, const RunOptions& options,
 
     if (state) state->end_if_asked(comm, "all meshes");
 
-    std::optional<TileJournal> journal;
-    if (state) journal.emplace(comm, *state);
+    std::optional<Journals> journals;
+    if (state) journals.emplace(comm, *state, resolved, petsc_arguments);
     const Partitioned partitioned =
-        partition_stage(comm, collection, features, options, journal ? &*journal : nullptr, log);
+        partition_stage(comm, collection, features, options, journals ? &*journals : nullptr, log);
     const Optimisation& optimisation = partitioned.optimisation;
     const CutResult& cut = partitioned.cut;
     ReportState state_summary;
-    if (journal) {
-        state_summary = summarised(comm, *state, *journal, collection);
-        for (const std::string& warning : journal->warnings()) log.warn(warning);
-        state->end_if_asked(comm, "all meshes and the optimiser's tiles");
+    if (journals) {
+        state_summary = summarised(comm, *state, *journals, collection);
+        for (const std::string& warning : journals->tiles.warnings()) log.warn(warning);
+        for (const std::string& warning : journals->cuts.warnings()) log.warn(warning);
+        state->end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
     }
 
     log.begin("label");

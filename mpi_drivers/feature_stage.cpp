@@ -1,5 +1,7 @@
 #include "mpi_drivers/feature_stage.hpp"
 
+#include <malloc.h>
+
 #include <cmath>
 #include <span>
 #include <utility>
@@ -94,7 +96,7 @@ Eigen::MatrixXd gathered_histograms(const Comm& comm, const Collection& collecti
 
 /// Histograms over several sets of words, one below the other, scaled so that inner products are the mean over the
 /// sets (square roots), or columns the mean: where k-means puts its borders is chance, which several sets even out.
-Eigen::MatrixXd word_histograms(const Comm& comm, Collection& collection, const RunOptions& options) {
+Eigen::MatrixXd word_histograms(const Comm& comm, const Collection& collection, const RunOptions& options) {
     std::vector<ShapeWordInput> contexts;
     for (const MeshDescription& mesh : collection.local) contexts.push_back({mesh.key, &mesh.shape_context});
     const auto sets = static_cast<double>(options.word_sets);
@@ -107,7 +109,6 @@ Eigen::MatrixXd word_histograms(const Comm& comm, Collection& collection, const 
         all.middleRows(static_cast<Eigen::Index>(set) * options.bins, options.bins) =
             gathered_histograms(comm, collection, bins, options) / (is_root ? std::sqrt(sets) : sets);
     }
-    for (MeshDescription& mesh : collection.local) mesh.shape_context.resize(0, 0);
     return all;
 }
 
@@ -127,6 +128,15 @@ std::vector<double> gathered_areas(const Comm& comm, const Collection& collectio
     return {all.data(), all.data() + all.size()};
 }
 
+/// What the allocator then holds in small pieces goes back to the system: the next stages ask for large ones.
+void release_descriptors(Collection& collection) {
+    for (MeshDescription& mesh : collection.local) {
+        mesh.shape_context.resize(0, 0);
+        for (Eigen::VectorXd& values : mesh.descriptors) values.resize(0);
+    }
+    malloc_trim(0);
+}
+
 }  // namespace
 
 PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options) {
@@ -144,6 +154,7 @@ PatchFeatures patch_features(const Comm& comm, Collection& collection, const Run
         features.feature_of.push_back(h);
     }
     features.patch_area = gathered_areas(comm, collection);
+    release_descriptors(collection);
     return features;
 }
 

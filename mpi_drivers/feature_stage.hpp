@@ -26,7 +26,8 @@ struct PatchFeatures {
     std::vector<NamedRange> ranges;  ///< the bin range of every scalar feature, for the report
 };
 
-/// Collective; the same bits on every rank and on any number of ranks. Releases the shape contexts of `collection`.
+/// Collective; the same bits on every rank and on any number of ranks. Releases the descriptors of `collection`, which
+/// no later stage looks at.
 PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options);
 
 }  // namespace coseg

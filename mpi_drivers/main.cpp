@@ -1,6 +1,7 @@
 // The one entry and the one exit: parses the command line, runs a subcommand, and turns every failure into one
 // sentence on rank 0 and a documented exit code on all ranks.
 
+#include <malloc.h>
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -147,6 +148,15 @@ int with_output_written(int code) {
     return static_cast<int>(ExitCode::output);
 }
 
+/// libpsm2, which Open MPI loads whether there is such a network or not, makes malloc keep what is freed, for the sake of
+/// pinned pages: large arrays are then cut from one heap, which grows with every stage and never shrinks.
+void return_freed_memory() {
+    constexpr int mebibyte = 1 << 20;
+    mallopt(M_MMAP_MAX, 65536);  // glibc's own value
+    mallopt(M_MMAP_THRESHOLD, 4 * mebibyte);
+    mallopt(M_TRIM_THRESHOLD, 64 * mebibyte);
+}
+
 }  // namespace
 
 // What is thrown outside a subcommand (out of memory at start) may end the program at once.
@@ -155,6 +165,7 @@ int main(int argc, char** argv) {
     coseg::launch_on_all_cores(argc, argv);
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);  // threads that watch call no MPI
+    return_freed_memory();
     int code = 0;
     {
         const Comm world(MPI_COMM_WORLD);

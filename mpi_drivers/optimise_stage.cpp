@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "solvers/mesh_links.hpp"
 #include "solvers/subspace_variants.hpp"
@@ -66,12 +67,9 @@ std::string limit_warning(const SolveResult& result) {
            "; raise --max-iterations or --max-seconds";
 }
 
-}  // namespace
-
-SubspaceProblem subspace_problem(const Collection& collection, const PatchFeatures& features,
-                                 const RunOptions& options) {
+/// The problem that the options ask for, with the meshes' names as the seed of their links; without its features.
+SubspaceProblem subspace_problem(const Collection& collection, const RunOptions& options) {
     SubspaceProblem problem;
-    problem.features = features.histograms;
     problem.alpha = options.alpha;
     problem.beta = options.beta;
     problem.lambda = options.lambda;
@@ -89,11 +87,14 @@ SubspaceProblem subspace_problem(const Collection& collection, const PatchFeatur
     return problem;
 }
 
-Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+}  // namespace
+
+Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatures& features,
                       const RunOptions& options, SolveJournal* journal) {
     agree(comm, [&] { refuse_contradictions(options); });
     const int feature = chosen_feature(features, options);
-    const SubspaceProblem problem = subspace_problem(collection, features, options);
+    SubspaceProblem problem = subspace_problem(collection, options);
+    problem.features = std::move(features.histograms);
     Optimisation done;
     done.variant = options.variant;
     done.scope = problem.scope == PenaltyScope::mesh ? "mesh" : "paper";
@@ -110,6 +111,7 @@ Optimisation optimise(const Comm& comm, const Collection& collection, const Patc
                              .solver = options.solver,
                              .journal = journal};
     done.result = solve_variant(comm, problem, variant_of(options.variant), feature, solve);
+    features.histograms = std::move(problem.features);
     done.features = feature_labels(features, options);
     done.warning = limit_warning(done.result);
     return done;

@@ -28,12 +28,10 @@ struct Optimisation {
     std::string warning;             ///< empty, or why the coefficients deserve a look
 };
 
-/// The problem that the options ask for, with `names` of the meshes as the seed of their links.
-SubspaceProblem subspace_problem(const Collection& collection, const PatchFeatures& features,
-                                 const RunOptions& options);
-
-/// journal: see SolveOptions. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what solve_variant throws.
-Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+/// journal: see SolveOptions. The histograms of `features` are lent to the solver, so that they are in memory once, and are
+/// back when it returns. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what
+/// solve_variant throws.
+Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatures& features,
                       const RunOptions& options, SolveJournal* journal = nullptr);
 
 /// One line for the log.

@@ -139,13 +139,15 @@ PatchFeatures segment_features(const PatchFeatures& features, const Segments& se
 }  // namespace
 
 CutResult partition_segments(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                             const CutResult& first, const RunOptions& options) {
+                             const CutResult& first, const RunOptions& options, SolveJournal* journal,
+                             CutJournal* cuts) {
     const Segments segments = find_segments(comm, collection, first.part_of_patch);
     const Collection whole = segment_collection(collection, segments);
-    const PatchFeatures described =
+    PatchFeatures described =
         segment_features(features, segments, collection.numbering.oversegmentations(), options);
-    const Optimisation optimisation = optimise(comm, whole, described, options);
-    const CutResult cut = cut_into_parts(comm, whole, described, optimisation.result.coefficients, options);
+    const Optimisation optimisation = optimise(comm, whole, described, options, journal);
+    const CutResult cut =
+        cut_or_found(comm, whole, described, optimisation.result.coefficients, options, cuts);
     std::vector<int> part_of_patch;
     for (const int segment : segments.of_patch) part_of_patch.push_back(cut.part_of_patch[at(segment)]);
     CutResult result = described_partition(part_of_patch, options.parts, collection.numbering.mesh_of(),

@@ -103,7 +103,7 @@ Matching match_parts(const std::vector<int>& part_of_patch, const std::vector<in
 }  // namespace
 
 SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                                const RunOptions& options) {
+                                const RunOptions& options, SolveJournal* journal, CutJournal* cuts) {
     std::vector<std::string> names;
     for (const MeshFacts& mesh : collection.meshes) names.push_back(mesh.name);
     const OverlappingSubsets plan = overlapping_subsets(names, options.subsets, options.seed);
@@ -114,10 +114,10 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
     SubsetOutcome outcome;
     double agreement = 0.0;
     for (std::size_t s = 0; s < plan.subsets.size(); ++s) {
-        const PartCollection part = part_of_collection(collection, features, plan.subsets[s]);
-        Optimisation optimised = optimise(comm, part.collection, part.features, options);
-        const CutResult cut =
-            cut_into_parts(comm, part.collection, part.features, optimised.result.coefficients, options);
+        PartCollection part = part_of_collection(collection, features, plan.subsets[s]);
+        Optimisation optimised = optimise(comm, part.collection, part.features, options, journal);
+        const CutResult cut = cut_or_found(comm, part.collection, part.features,
+                                           optimised.result.coefficients, options, cuts);
         take_columns(comm, optimised.result.coefficients, part.patch_of, columns);
         add(outcome.optimisation, std::move(optimised), s == 0);
         const Matching matching =

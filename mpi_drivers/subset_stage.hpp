@@ -3,6 +3,7 @@
 // collections, to compare with solving it whole.
 
 #include "mpi_drivers/cut_stage.hpp"
+#include "mpi_drivers/kept_cut.hpp"
 #include "mpi_drivers/optimise_stage.hpp"
 
 namespace coseg {
@@ -16,8 +17,9 @@ struct SubsetOutcome {
 
 /// Optimises and cuts subsets of options.subsets meshes one after the other, on all ranks. Parts of a later subset take the
 /// numbers of the first by the one assignment that agrees on most area of the common meshes. Features are those of the whole
-/// collection. Source: the paper, section 5 (Figure 6). Collective. Throws what optimise and cut_into_parts do.
+/// collection. The journals, of what a state folder keeps, may be null. Source: the paper, section 5 (Figure 6). Collective.
+/// Throws what optimise and cut_into_parts do, and what the journals do.
 SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                                const RunOptions& options);
+                                const RunOptions& options, SolveJournal* journal, CutJournal* cuts);
 
 }  // namespace coseg

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace coseg {
 
@@ -119,14 +120,14 @@ PetscMatrix to_petsc(const Comm& comm, const SparseRows& matrix) {
     const auto size = petsc_int(matrix.size, "patches");
     petsc_int(static_cast<std::int64_t>(matrix.values.size()), "affinities of one rank");
     std::vector<PetscInt> offsets(matrix.offsets.begin(), matrix.offsets.end());
-    const std::vector<PetscInt> columns(matrix.columns.begin(), matrix.columns.end());
+    static_assert(std::is_same_v<PetscInt, int>, "columns are handed over as they are");
     PetscMatrix result;
     check(MatCreate(comm.raw(), result.out()), "MatCreate");
     check(MatSetSizes(result.get(), rows, rows, size, size), "MatSetSizes");
     check(MatSetType(result.get(), MATAIJ), "MatSetType");
-    check(MatSeqAIJSetPreallocationCSR(result.get(), offsets.data(), columns.data(), matrix.values.data()),
+    check(MatSeqAIJSetPreallocationCSR(result.get(), offsets.data(), matrix.columns.data(), matrix.values.data()),
           "MatSeqAIJSetPreallocationCSR");
-    check(MatMPIAIJSetPreallocationCSR(result.get(), offsets.data(), columns.data(), matrix.values.data()),
+    check(MatMPIAIJSetPreallocationCSR(result.get(), offsets.data(), matrix.columns.data(), matrix.values.data()),
           "MatMPIAIJSetPreallocationCSR");
     return result;
 }

@@ -271,8 +271,21 @@ void MeshScopeSolver::append_column(const Column& column, SolvedTile& tile) cons
     tile.offsets.push_back(static_cast<std::int64_t>(tile.rows.size()));
 }
 
+/// Room for as many pairs as there will be if the columns to come are like those before, so that the largest array of a
+/// large problem is not copied while it grows. Memory that is never written to is not taken.
+void make_room(const SolvedTile& tile, SparseCoefficients& sparse) {
+    const std::size_t pairs = sparse.rows.size() + tile.rows.size();
+    if (pairs <= sparse.rows.capacity()) return;
+    const auto columns = static_cast<double>(sparse.offsets.size() + tile.offsets.size() - 2);
+    const double expected = 1.2 * static_cast<double>(pairs) / columns * static_cast<double>(sparse.columns.size());
+    const std::size_t room = std::max(pairs + pairs / 4, static_cast<std::size_t>(expected));
+    sparse.rows.reserve(room);
+    sparse.values.reserve(room * static_cast<std::size_t>(sparse.features));
+}
+
 /// Takes a finished tile into this rank's part of the answer.
 void add_tile(const SolvedTile& tile, SparseCoefficients& sparse, ExactSum& sums, Totals& totals) {
+    make_room(tile, sparse);
     const std::int64_t before = sparse.offsets.back();
     for (std::size_t c = 1; c < tile.offsets.size(); ++c) sparse.offsets.push_back(before + tile.offsets[c]);
     sparse.rows.insert(sparse.rows.end(), tile.rows.begin(), tile.rows.end());

@@ -94,6 +94,8 @@ SparseRows rows_from_entries(std::int64_t size, BlockRange range, std::vector<Sp
     matrix.size = size;
     matrix.rows = range;
     matrix.offsets.assign(1, 0);
+    matrix.columns.reserve(entries.size());  // at most: memory that is not written to is not taken
+    matrix.values.reserve(entries.size());
     for (std::size_t r = 0; r + 1 < starts.size(); ++r) {
         const auto row_begin = static_cast<std::size_t>(matrix.offsets.back());
         for (auto k = static_cast<std::size_t>(starts[r]); k < static_cast<std::size_t>(starts[r + 1]); ++k) {
@@ -115,7 +117,7 @@ SparseRows exchange_entries(const Comm& comm, std::int64_t size, const std::vect
     refuse_overflow(comm, outgoing, incoming);
     const Envelope out(outgoing);
     const Envelope in(incoming);
-    const std::vector<SparseEntry> packed = pack_by_owner(comm, size, out, entries);
+    std::vector<SparseEntry> packed = pack_by_owner(comm, size, out, entries);
     std::vector<SparseEntry> mine(static_cast<std::size_t>(in.all));
     MPI_Datatype entry_type = MPI_DATATYPE_NULL;
     MPI_Type_contiguous(static_cast<int>(sizeof(SparseEntry)), MPI_BYTE, &entry_type);
@@ -123,6 +125,7 @@ SparseRows exchange_entries(const Comm& comm, std::int64_t size, const std::vect
     MPI_Alltoallv(packed.data(), out.counts.data(), out.starts.data(), entry_type, mine.data(),
                   in.counts.data(), in.starts.data(), entry_type, comm.raw());
     MPI_Type_free(&entry_type);
+    packed = {};
     return rows_from_entries(size, block_range(size, comm.size(), comm.rank(), row_tile), std::move(mine));
 }
 
@@ -166,6 +169,11 @@ SparseRows weighted_sum(std::span<const WeightedMatrix> terms) {
     SparseRows sum;
     sum.size = first.size;
     sum.rows = first.rows;
+    std::size_t entries = 0;  // at most, and nearly: a place rarely has a value in two terms
+    for (const WeightedMatrix& term : terms) entries += term.weight == 0.0 ? 0 : term.matrix->values.size();
+    sum.columns.reserve(entries);
+    sum.values.reserve(entries);
+    sum.offsets.reserve(first.offsets.size());
     std::vector<std::pair<int, double>> row;
     for (std::size_t r = 0; r < static_cast<std::size_t>(first.local_rows()); ++r) {
         row.clear();

@@ -134,28 +134,6 @@ std::vector<double> mesh_indicators(const CutOperator& op, const std::vector<int
     return entries;
 }
 
-/// Q Q^T: this rank's rows. Nonzero inside meshes alone.
-SparseRows mesh_projection(const CutOperator& op, const std::vector<int>& mesh_of) {
-    const std::vector<double> indicator = mesh_indicators(op, mesh_of);
-    std::vector<std::vector<int>> members;
-    for (const int i : op.rows) {
-        const auto m = static_cast<std::size_t>(mesh_of[static_cast<std::size_t>(i)]);
-        if (m >= members.size()) members.resize(m + 1);
-        members[m].push_back(i);
-    }
-    std::vector<SparseEntry> entries;
-    for (const std::vector<int>& patches : members) {
-        for (const int i : patches) {
-            if (!op.matrix.rows.contains(i)) continue;
-            for (const int j : patches) {
-                entries.push_back(
-                    {i, j, indicator[static_cast<std::size_t>(i)] * indicator[static_cast<std::size_t>(j)]});
-            }
-        }
-    }
-    return rows_from_entries(op.matrix.size, op.matrix.rows, std::move(entries));
-}
-
 /// Subtracts tau times the projection on the meshes' indicators less what lies in the span of `known`.
 void balance_dense(const CutOperator& op, const std::vector<int>& mesh_of, double tau,
                    Eigen::MatrixXd& dense) {
@@ -334,25 +312,77 @@ void find_missed_pairs(const Comm& comm, const CutOperator& op, Mat matrix, cons
     }
 }
 
-/// The operator as PETSc has it; the span of the components' vectors is left to deflation.
-PetscMatrix cut_matrix(const Comm& comm, const CutOperator& op, const SpectralOptions& options,
-                       const std::vector<int>& mesh_of) {
-    if (options.mesh_balance <= 0.0) return to_petsc(comm, op.matrix);
-    const SparseRows projection = mesh_projection(op, mesh_of);
-    const WeightedMatrix terms[] = {{&op.matrix, 1.0}, {&projection, -options.mesh_balance}};
-    return to_petsc(comm, weighted_sum(terms));
+/// The operator less tau Q Q^T, Q the meshes' indicators, without forming Q Q^T: it would have an entry for every two
+/// patches of a mesh, more than the affinity itself. The span of the components' vectors is left to deflation.
+struct BalancedMatrix {
+    const Comm& comm;
+    PetscMatrix sparse;
+    double tau = 0.0;
+    std::vector<int> mesh = {};          ///< of this rank's rows
+    std::vector<double> indicator = {};  ///< likewise
+    std::vector<double> shares = {};     ///< Q^T x, per mesh
+    PetscMatrix shell = {};
+};
+
+PetscErrorCode multiply_balanced(Mat shell, Vec x, Vec y) {
+    BalancedMatrix* balanced = nullptr;
+    const PetscScalar* from = nullptr;
+    PetscScalar* to = nullptr;
+    PetscCall(MatShellGetContext(shell, &balanced));
+    PetscCall(MatMult(balanced->sparse.get(), x, y));
+    std::fill(balanced->shares.begin(), balanced->shares.end(), 0.0);
+    PetscCall(VecGetArrayRead(x, &from));
+    for (std::size_t r = 0; r < balanced->mesh.size(); ++r)
+        balanced->shares[static_cast<std::size_t>(balanced->mesh[r])] += balanced->indicator[r] * from[r];
+    PetscCall(VecRestoreArrayRead(x, &from));
+    if (balanced->comm.size() > 1) {
+        MPI_Allreduce(MPI_IN_PLACE, balanced->shares.data(), static_cast<int>(balanced->shares.size()),
+                      MPI_DOUBLE, MPI_SUM, balanced->comm.raw());
+    }
+    PetscCall(VecGetArray(y, &to));
+    for (std::size_t r = 0; r < balanced->mesh.size(); ++r) {
+        to[r] -= balanced->tau * balanced->indicator[r] *
+                 balanced->shares[static_cast<std::size_t>(balanced->mesh[r])];
+    }
+    PetscCall(VecRestoreArray(y, &to));
+    return 0;
 }
 
-EigenPairs sparse_eigenpairs(const Comm& comm, const CutOperator& op, int count,
+void balance(const CutOperator& op, const std::vector<int>& mesh_of, BalancedMatrix& balanced) {
+    const std::vector<double> indicator = mesh_indicators(op, mesh_of);
+    const auto begin = op.matrix.rows.begin;
+    const auto end = op.matrix.rows.end;
+    balanced.mesh.assign(mesh_of.begin() + begin, mesh_of.begin() + end);
+    balanced.indicator.assign(indicator.begin() + begin, indicator.begin() + end);
+    balanced.shares.resize(static_cast<std::size_t>(*std::max_element(mesh_of.begin(), mesh_of.end())) + 1);
+    const auto rows = petsc_int(op.matrix.local_rows(), "rows of the affinity");
+    const auto size = petsc_int(op.matrix.size, "patches");
+    check(MatCreateShell(balanced.comm.raw(), rows, rows, size, size, &balanced, balanced.shell.out()),
+          "MatCreateShell");
+    check(MatShellSetOperation(balanced.shell.get(), MATOP_MULT,
+                               reinterpret_cast<void (*)()>(multiply_balanced)),
+          "MatShellSetOperation");
+}
+
+/// PETSc has a copy of its own.
+void release_entries(SparseRows& matrix) {
+    matrix.columns = {};
+    matrix.values = {};
+}
+
+EigenPairs sparse_eigenpairs(const Comm& comm, CutOperator& op, int count,
                              const SpectralOptions& options, const std::vector<int>& mesh_of) {
     EigenPairs pairs = options.offset == 0.0 ? component_eigenpairs(op) : EigenPairs{};
     const int wanted = count - static_cast<int>(pairs.values.size());
     if (wanted <= 0) return pairs;
-    const PetscMatrix matrix = cut_matrix(comm, op, options, mesh_of);
-    const EigenPairs found = krylov_eigenpairs(comm, op, matrix.get(), pairs, wanted, 0, options);
+    BalancedMatrix balanced{.comm = comm, .sparse = to_petsc(comm, op.matrix), .tau = options.mesh_balance};
+    release_entries(op.matrix);
+    if (options.mesh_balance > 0.0) balance(op, mesh_of, balanced);
+    Mat matrix = options.mesh_balance > 0.0 ? balanced.shell.get() : balanced.sparse.get();
+    const EigenPairs found = krylov_eigenpairs(comm, op, matrix, pairs, wanted, 0, options);
     for (int k = 0; k < wanted; ++k)
         pairs.append(found.values[static_cast<std::size_t>(k)], found.vectors.col(k));
-    if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, matrix.get(), options, pairs);
+    if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, matrix, options, pairs);
     return pairs;
 }
 
@@ -380,7 +410,7 @@ SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinit
         throw AgreedError(ExitCode::internal,
                           "a balance of meshes needs a mesh for each patch and no offset");
     }
-    const CutOperator op = cut_operator(comm, affinity, parts, options.offset);
+    CutOperator op = cut_operator(comm, affinity, parts, options.offset);
     const int vectors = std::min(count, static_cast<int>(op.rows.size()));
     const EigenPairs pairs = affinity.size <= dense_rows
                                  ? dense_eigenpairs(comm, op, vectors, options, mesh_of)
