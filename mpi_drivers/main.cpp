@@ -11,12 +11,14 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mpi_drivers/command.hpp"
 #include "mpi_drivers/config_file.hpp"
 #include "mpi_drivers/help_pages.hpp"
 #include "mpi_drivers/self_launch.hpp"
+#include "mpi_drivers/stop_request.hpp"
 #include "mpi_drivers/version.hpp"
 #include "src/error.hpp"
 #include "src/spelling.hpp"
@@ -148,6 +150,15 @@ int with_output_written(int code) {
     return static_cast<int>(ExitCode::output);
 }
 
+/// A state folder that only a configuration file names is not seen here.
+bool has_state_folder(int argc, char** argv) {
+    for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+        const std::string_view word = argv[i];
+        if (word == "--state" || word.starts_with("--state=")) return true;
+    }
+    return false;
+}
+
 /// libpsm2, which Open MPI loads whether there is such a network or not, makes malloc keep what is freed, for the sake of
 /// pinned pages: large arrays are then cut from one heap, which grows with every stage and never shrinks.
 void return_freed_memory() {
@@ -163,6 +174,7 @@ void return_freed_memory() {
 // NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
     coseg::launch_on_all_cores(argc, argv);
+    if (has_state_folder(argc, argv)) coseg::heed_stop_requests();
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);  // threads that watch call no MPI
     return_freed_memory();

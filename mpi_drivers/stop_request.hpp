@@ -6,6 +6,10 @@
 
 namespace coseg {
 
+/// From now on SIGUSR1 and SIGTERM raise the flag of the StopRequest to come: a signal that arrives while the program starts
+/// then ends it as one that comes later does.
+void heed_stop_requests();
+
 /// While it lives, SIGUSR1 and SIGTERM only raise a flag, which the stages look at between meshes and iterations.
 /// At most one in a process.
 class StopRequest {

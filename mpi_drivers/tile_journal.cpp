@@ -151,6 +151,10 @@ std::vector<SolvedTile> read_tiles(const std::string& path) {
 
 void TileJournal::open(const SubspaceProblem& problem, const SolveOptions& options, BlockRange owned) {
     features_ = problem.feature_count();
+    owned_ = owned;
+    size_ = problem.size();
+    generation_ = 0;
+    has_iterate_ = false;
     folder_ = state_.folder().solver_folder(problem_key(problem, options));
     agree(comm_, [&] {
         if (comm_.is_root()) make_parent_folders(folder_ + "/tiles");
@@ -227,6 +231,74 @@ bool TileJournal::should_stop() {
     return stop_->is_exhausted();
 }
 
+/// This rank's columns of one generation, from the files that hold them; nothing if one of these is damaged.
+std::optional<SolveIterate> TileJournal::load_iterate(const std::vector<IterateFile>& files) {
+    std::vector<SolveIterate> parts;
+    for (const IterateFile& file : files) {
+        const bool overlaps = file.columns.begin < owned_.end && file.columns.end > owned_.begin;
+        const bool only_numbers = owned_.size() == 0 && parts.empty();
+        if (!overlaps && !only_numbers) continue;
+        try {
+            parts.push_back(read_iterate(file.path));
+            mark_as_used(file.path);
+        } catch (const Error& error) {
+            warnings_.push_back(std::string(error.what()) + "; it is set aside as " +
+                                state_.folder().set_aside(file.path) +
+                                " and the optimiser continues from an earlier point");
+            return std::nullopt;
+        }
+    }
+    return cut_to(parts, owned_, features_);
+}
+
+std::optional<SolveIterate> TileJournal::find_iterate() {
+    std::vector<std::string> paths;
+    if (comm_.is_root()) {
+        for (const IterateFile& file : iterate_files(folder_)) paths.push_back(file.path);
+    }
+    broadcast_texts(comm_, paths);
+    const std::vector<IterateFile> all = iterate_files_of(paths);
+    if (!all.empty()) generation_ = all.front().generation;  // also an incomplete one: the next has another name
+    for (std::size_t first = 0; first < all.size();) {
+        std::size_t last = first;
+        while (last < all.size() && all[last].generation == all[first].generation) ++last;
+        const std::vector<IterateFile> files(all.begin() + static_cast<std::ptrdiff_t>(first),
+                                             all.begin() + static_cast<std::ptrdiff_t>(last));
+        first = last;
+        if (!is_complete(files, size_)) continue;
+        std::optional<SolveIterate> iterate = load_iterate(files);
+        if (all_min(comm_, iterate ? 1.0 : 0.0) == 0.0) continue;
+        has_iterate_ = true;
+        if (comm_.is_root()) ++found_;
+        return iterate;
+    }
+    return std::nullopt;
+}
+
+JournalTurn TileJournal::turn() {
+    const std::chrono::duration<double> since = Clock::now() - last_write_;
+    const double due = comm_.is_root() && since.count() >= state_.checkpoint_seconds() ? 1.0 : 0.0;
+    const double most = all_max(comm_, state_.stop_is_raised() ? 2.0 : due);
+    if (most == 0.0) return JournalTurn::go_on;
+    return most == 1.0 ? JournalTurn::keep : JournalTurn::keep_and_stop;
+}
+
+void TileJournal::keep_iterate(const SolveIterate& iterate) {
+    ++generation_;
+    agree(comm_, [&] {
+        if (owned_.size() > 0) write_iterate(iterate_path(folder_, generation_, owned_), iterate, features_);
+    });
+    if (comm_.is_root()) {
+        for (const IterateFile& file : iterate_files(folder_)) {
+            std::error_code ignored;
+            if (file.generation < generation_) fs::remove(file.path, ignored);
+        }
+        if (!has_iterate_) ++kept_;
+    }
+    has_iterate_ = true;
+    last_write_ = Clock::now();
+}
+
 void TileJournal::close(bool stopped) {
     agree(comm_, [&] {
         if (failure_) throw Error(*failure_);
@@ -235,6 +307,7 @@ void TileJournal::close(bool stopped) {
     const bool any_stopped = all_max(comm_, stopped ? 1.0 : 0.0) > 0.0;
     const auto known = all_sum(comm_, std::int64_t{found_} + kept_);
     stop_.reset();
+    if (any_stopped && has_iterate_) throw checkpointed("all meshes and the optimiser's iterate");
     if (any_stopped)
         throw checkpointed("all meshes and " + std::to_string(known) + " tiles of the optimiser");
 }

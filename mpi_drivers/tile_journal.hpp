@@ -1,5 +1,5 @@
 #pragma once
-// The optimiser's finished tiles in a state folder.
+// The optimiser's finished tiles, or its iterate, in a state folder.
 
 #include <chrono>
 #include <map>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/content_hash.hpp"
+#include "mpi_drivers/iterate_file.hpp"
 #include "mpi_drivers/run_state.hpp"
 #include "solvers/subspace_solver.hpp"
 #include "src/comm.hpp"
@@ -20,7 +21,8 @@ namespace coseg {
 ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& options);
 
 /// Tiles are written in runs, DIR/solver/KEY/tiles-BEGIN-END.h5, by whichever rank solved them; a later run with any
-/// number of ranks reads the files that overlap its columns.
+/// number of ranks reads the files that overlap its columns. Iterates (iterate_file.hpp) are written there by all ranks, one
+/// generation after the other; the one before goes when all files of the next are there.
 class TileJournal : public SolveJournal {
   public:
     TileJournal(const Comm& comm, const RunState& state) : comm_(comm), state_(state) {}
@@ -29,11 +31,14 @@ class TileJournal : public SolveJournal {
     std::optional<SolvedTile> find(std::int64_t begin) override;
     void keep(const SolvedTile& tile) override;
     bool should_stop() override;
+    std::optional<SolveIterate> find_iterate() override;
+    JournalTurn turn() override;
+    void keep_iterate(const SolveIterate& iterate) override;
     void close(bool stopped) override;
 
     /// Collective: what went wrong with files, a sentence each, on all ranks.
     [[nodiscard]] std::vector<std::string> warnings() const { return all_gather_texts(comm_, warnings_); }
-    /// Tiles of this rank that need not be solved again, and those that were solved.
+    /// Tiles of this rank that need not be solved again, and those that were solved; an iterate counts one on rank 0.
     [[nodiscard]] int found_count() const noexcept { return found_; }
     [[nodiscard]] int kept_count() const noexcept { return kept_; }
 
@@ -43,12 +48,17 @@ class TileJournal : public SolveJournal {
         BlockRange columns;
         std::string path;
     };
+    std::optional<SolveIterate> load_iterate(const std::vector<IterateFile>& files);
     void load(const TileFile& file);
     void flush();
 
     const Comm& comm_;
     const RunState& state_;
     std::string folder_;
+    BlockRange owned_;
+    std::int64_t size_ = 0;  ///< columns of all ranks
+    int generation_ = 0;     ///< of the iterate that was found or kept last
+    bool has_iterate_ = false;
     std::vector<TileFile> files_;                ///< not yet read, that overlap the owned columns
     std::map<std::int64_t, SolvedTile> loaded_;  ///< by begin
     std::vector<SolvedTile> pending_;            ///< solved but not yet written, adjacent

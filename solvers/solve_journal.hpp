@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solvers/spectral_projected_gradient.hpp"
 #include "solvers/subspace_problem.hpp"
 #include "src/block_range.hpp"
 
@@ -29,8 +30,32 @@ struct SolvedTile {
     bool limited = false;  ///< a column stopped at the iteration limit
 };
 
-/// Where finished tiles go. A solver calls open() once, then the members in between for the columns that a rank owns, in
-/// ascending order, then close().
+/// Where scope paper stands: in the middle of a solve on its working set, or at its end. A function of the problem and
+/// the options; each rank holds its own columns.
+struct SolveIterate {
+    BlockRange columns;
+    std::vector<std::int64_t> offsets;  ///< columns.size() + 1, into rows
+    std::vector<int> rows;              ///< the working set of each column
+    std::vector<double> weights;        ///< H a pair
+    std::vector<double> prices;         ///< H for each row whose number is in `columns`
+    // From here on the same on all ranks.
+    SpectralState spectral;
+    double inner_gap = 0.0;    ///< asked of the working set's problem
+    double lower_bound = 0.0;  ///< the best so far
+    int iterations = 0;        ///< before this solve; at the end: in all
+    int passes = 0;
+    // At the end:
+    bool finished = false;
+    double objective = 0.0;
+    double residual = 0.0;
+    int reason = 0;  ///< StopReason, where the gap is not reached
+};
+
+/// What is to be done with an iterate now.
+enum class JournalTurn { go_on, keep, keep_and_stop };
+
+/// Where finished tiles go, or the iterate of a solver whose columns are not independent. A solver calls open() once, then
+/// for tiles the members in between for the columns that a rank owns, in ascending order, or those for iterates, then close().
 class SolveJournal {
   public:
     SolveJournal() = default;
@@ -45,7 +70,15 @@ class SolveJournal {
     virtual void keep(const SolvedTile& tile) = 0;
     /// True as soon as the solver should end early: some rank has been asked to, or a tile could not be kept.
     virtual bool should_stop() = 0;
-    /// Collective, after the last tile of every rank. Throws AgreedError if the solver ended early on any rank
+
+    /// The iterate that was kept last, cut to the columns of open(). Collective.
+    virtual std::optional<SolveIterate> find_iterate() = 0;
+    /// Alike on all ranks. Collective.
+    virtual JournalTurn turn() = 0;
+    /// In place of the one before. Collective; throws AgreedError(output).
+    virtual void keep_iterate(const SolveIterate& iterate) = 0;
+
+    /// Collective, after the last tile of every rank or the last iterate. Throws AgreedError if the solver ended early on any rank
     /// (`stopped`) or a tile could not be kept; returns if the solution is complete.
     virtual void close(bool stopped) = 0;
 };

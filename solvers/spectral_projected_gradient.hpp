@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <limits>
 
 namespace coseg {
@@ -33,6 +34,14 @@ concept ProximalModel = requires(T model, const T& fixed, double step) {
     model.accept();
 };
 
+/// All that the iteration knows beside its point: with both it continues to the last bit.
+struct SpectralState {
+    double step = 0.0;
+    std::array<double, 10> recent{};  ///< objectives
+    std::int64_t count = 0;           ///< of objectives so far
+    int iterations = 0;               ///< accepted steps
+};
+
 class SpectralStep {
   public:
     static constexpr double smallest = 1e-30;
@@ -42,6 +51,13 @@ class SpectralStep {
     explicit SpectralStep(double first_step, double objective)
         : step_(std::clamp(first_step, smallest, largest)) {
         remember(objective);
+    }
+
+    explicit SpectralStep(const SpectralState& state)
+        : step_(state.step), recent_(state.recent), count_(static_cast<std::size_t>(state.count)) {}
+
+    [[nodiscard]] SpectralState state(int iterations) const noexcept {
+        return {step_, recent_, static_cast<std::int64_t>(count_), iterations};
     }
 
     [[nodiscard]] double step() const noexcept { return step_; }
@@ -79,14 +95,14 @@ class SpectralStep {
 struct SpectralProgress {
     int iterations = 0;     ///< accepted steps
     double residual = 0.0;  ///< ||W - prox(W - t G)|| / t at the step just taken
+    SpectralState state;    ///< to continue with spectral_projected_gradient(model, state, stop)
 };
 
-/// Iterates until `stop(progress)` is true.
-/// Collective where the model is; `stop` must decide the same on all ranks.
+/// Continues an iteration whose point the model is at.
 template <ProximalModel Model, class Stop>
-SpectralProgress spectral_projected_gradient(Model& model, double first_step, Stop&& stop) {
-    SpectralStep rule(first_step, model.objective());
-    SpectralProgress progress;
+SpectralProgress spectral_projected_gradient(Model& model, const SpectralState& state, Stop&& stop) {
+    SpectralStep rule(state);
+    SpectralProgress progress{.iterations = state.iterations, .residual = 0.0, .state = state};
     while (true) {
         TrialPoint trial = model.propose(rule.step());
         while (!rule.accepts(trial) && rule.step() > SpectralStep::smallest) {
@@ -97,8 +113,16 @@ SpectralProgress spectral_projected_gradient(Model& model, double first_step, St
         model.accept();
         ++progress.iterations;
         rule.lengthen(trial);
+        progress.state = rule.state(progress.iterations);
         if (stop(progress)) return progress;
     }
+}
+
+/// Iterates until `stop(progress)` is true.
+/// Collective where the model is; `stop` must decide the same on all ranks.
+template <ProximalModel Model, class Stop>
+SpectralProgress spectral_projected_gradient(Model& model, double first_step, Stop&& stop) {
+    return spectral_projected_gradient(model, SpectralStep(first_step, model.objective()).state(0), stop);
 }
 
 }  // namespace coseg

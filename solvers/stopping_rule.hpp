@@ -22,6 +22,8 @@ class StoppingRule {
     void give_up(StopReason reason) { limit_ = reason; }
 
     [[nodiscard]] double relative_gap() const;
+    [[nodiscard]] double lower_bound() const noexcept { return lower_bound_; }
+    [[nodiscard]] StopReason limit() const noexcept { return limit_; }
 
     /// What gaps are relative to. An objective that vanishes, as where duplicates explain each other, has no
     /// relative gap of its own: a millionth of the objective at W = 0 is the least.

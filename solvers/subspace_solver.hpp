@@ -15,7 +15,7 @@ struct SolveOptions {
     int max_iterations = 200000;      ///< of the inner method; scope mesh: per column
     double max_seconds = 3600.0;      ///< wall time
     std::string solver = "auto";      ///< "auto", "dense" (scope paper only) or "working-set"
-    SolveJournal* journal = nullptr;  ///< scope mesh: keeps finished tiles; none by default
+    SolveJournal* journal = nullptr;  ///< keeps finished tiles or the iterate; none by default
 };
 
 enum class StopReason { gap_reached, residual_reached, iteration_limit, time_limit };

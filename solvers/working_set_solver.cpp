@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solvers/all_pairs_pass.hpp"
+#include "solvers/solve_journal.hpp"
 #include "solvers/stopping_rule.hpp"
 #include "solvers/working_set_model.hpp"
 
@@ -77,14 +78,57 @@ struct Progress {
     std::vector<double> row_sums;
     double inner_gap = 0.0;  ///< asked of the working set's problem
     bool limited = false;
+    bool stopped = false;  ///< by the journal: the iterate is kept, and another run continues
 };
 
-/// Spectral projected gradient on the working set until its own gap is small enough, or a limit.
+/// The working set as a journal keeps it; the rest of the iterate is the caller's.
+SolveIterate iterate_of(const WorkingSet& working, const std::vector<double>& prices) {
+    SolveIterate iterate;
+    iterate.columns = working.columns;
+    iterate.offsets = {0};
+    for (const ColumnFit& fit : working.fits) {
+        iterate.rows.insert(iterate.rows.end(), fit.rows.begin(), fit.rows.end());
+        iterate.weights.insert(iterate.weights.end(), fit.weights.begin(), fit.weights.end());
+        iterate.offsets.push_back(static_cast<std::int64_t>(iterate.rows.size()));
+    }
+    iterate.prices = prices;
+    return iterate;
+}
+
+void restore(const FeatureStack& stack, const SolveIterate& iterate, WorkingSet& working,
+             std::vector<double>& prices) {
+    const std::ptrdiff_t features = stack.features;
+    for (std::size_t c = 0; c < working.fits.size(); ++c) {
+        const std::ptrdiff_t begin = iterate.offsets[c];
+        const std::ptrdiff_t end = iterate.offsets[c + 1];
+        working.fits[c].rows.assign(iterate.rows.begin() + begin, iterate.rows.begin() + end);
+        working.fits[c].weights.assign(iterate.weights.begin() + begin * features,
+                                       iterate.weights.begin() + end * features);
+        prepare_column_fit(stack, static_cast<int>(working.columns.begin) + static_cast<int>(c), working.fits[c]);
+    }
+    prices = iterate.prices;
+}
+
+/// Spectral projected gradient on the working set until its own gap is small enough, or a limit, or the journal stops it.
+/// from: where an earlier run was in this very solve, if it was.
 void solve_inside(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                   WorkingSet& working, std::vector<double>& prices, StoppingRule& rule, Progress& progress,
-                  SolveResult& result) {
+                  SolveResult& result, SolveJournal* journal, const SpectralState* from) {
     WorkingSetModel model(comm, problem, stack, working, prices);
     const int before = result.iterations;
+    const auto keep = [&](const SpectralProgress& inner) {
+        const JournalTurn turn = journal->turn();
+        progress.stopped = turn == JournalTurn::keep_and_stop;
+        if (turn == JournalTurn::go_on) return;
+        model.store(working);
+        SolveIterate iterate = iterate_of(working, prices);
+        iterate.spectral = inner.state;
+        iterate.inner_gap = progress.inner_gap;
+        iterate.lower_bound = rule.lower_bound();
+        iterate.iterations = before;
+        iterate.passes = result.passes;
+        journal->keep_iterate(iterate);
+    };
     const auto stop = [&](const SpectralProgress& inner) {
         result.iterations = before + inner.iterations;
         result.kkt_residual = inner.residual / gradient_scale(stack);
@@ -92,12 +136,71 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         if (inner.iterations % inner_check_interval != 0) return false;
         progress.limited = rule.limit_reached(result.iterations, 1.0);
         const double gap = model.objective() - model.lower_bound();
-        return progress.limited || gap <= progress.inner_gap * rule.scale(model.objective());
+        if (progress.limited || gap <= progress.inner_gap * rule.scale(model.objective())) return true;
+        if (journal != nullptr) keep(inner);
+        return progress.stopped;
     };
-    spectral_projected_gradient(model, 0.5 / stack.largest_inner, stop);
+    if (from != nullptr)
+        spectral_projected_gradient(model, *from, stop);
+    else
+        spectral_projected_gradient(model, 0.5 / stack.largest_inner, stop);
     model.store(working);
     progress.objective = model.objective();
     progress.row_sums = model.row_sums();
+}
+
+/// Takes up an iterate that a journal has kept. A finished one leaves nothing to do.
+PassFindings resume(const FeatureStack& stack, const SolveIterate& known, WorkingSet& working,
+                    std::vector<double>& prices, StoppingRule& rule, Progress& progress, SolveResult& result) {
+    restore(stack, known, working, prices);
+    progress.inner_gap = known.inner_gap;
+    result.iterations = known.iterations;
+    result.passes = known.passes;
+    if (known.finished) {
+        progress.objective = known.objective;
+        progress.limited = true;
+        result.kkt_residual = known.residual;
+        rule.give_up(static_cast<StopReason>(known.reason));
+    }
+    PassFindings findings;
+    findings.lower_bound = known.lower_bound;
+    return findings;
+}
+
+/// Keeps the end of the solve, unless it is the clock's, and ends the run where the journal has stopped it.
+void close_journal(SolveJournal& journal, const WorkingSet& working, const std::vector<double>& prices,
+                   const StoppingRule& rule, const Progress& progress, const SolveResult& result,
+                   bool was_finished) {
+    if (!progress.stopped && !was_finished && rule.limit() != StopReason::time_limit) {
+        SolveIterate iterate = iterate_of(working, prices);
+        iterate.lower_bound = rule.lower_bound();
+        iterate.iterations = result.iterations;
+        iterate.passes = result.passes;
+        iterate.finished = true;
+        iterate.objective = progress.objective;
+        iterate.residual = result.kkt_residual;
+        iterate.reason = static_cast<int>(rule.limit());
+        journal.keep_iterate(iterate);
+    }
+    journal.close(progress.stopped);
+}
+
+/// What the next solve on the working set is asked for, and the pairs that it is on; false if nothing closes the gap.
+bool prepare_solve(const FeatureStack& stack, const PassFindings& findings, const SolveOptions& options,
+                   int passes, StoppingRule& rule, WorkingSet& working, Progress& progress) {
+    // Solve the working set to a part of the gap that is left; more only where nothing else closes it.
+    if (findings.entering_pairs > 0) {
+        progress.inner_gap =
+            std::max(std::min(progress.inner_gap, 0.1 * rule.relative_gap()), 0.3 * options.gap);
+    } else {
+        progress.inner_gap *= 0.1;
+    }
+    if (progress.inner_gap < smallest_inner_gap) {
+        rule.give_up(StopReason::residual_reached);
+        return false;
+    }
+    update_working_set(stack, findings, passes > 1 && passes <= passes_that_shrink, working);
+    return true;
 }
 
 }  // namespace
@@ -111,27 +214,27 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
     AllPairsPass pass(comm, problem, stack);
     StoppingRule rule(comm, options, stack.squared_norm);
     SolveResult result;
-    PassFindings findings = pass.first(working);
-    result.passes = 1;
     Progress progress{.objective = stack.squared_norm, .row_sums = {}, .inner_gap = 1e-2};
+    SolveJournal* journal = options.journal;
+    if (journal != nullptr) journal->open(problem, options, working.columns);
+    std::optional<SolveIterate> known =
+        journal != nullptr ? journal->find_iterate() : std::optional<SolveIterate>();
+    const bool was_finished = known && known->finished;
+    if (!known) result.passes = 1;
+    PassFindings findings =
+        known ? resume(stack, *known, working, prices, rule, progress, result) : pass.first(working);
     while (!rule.certify(progress.objective, findings.lower_bound) && !progress.limited) {
-        // Solve the working set to a part of the gap that is left; more only where nothing else closes it.
-        if (findings.entering_pairs > 0) {
-            progress.inner_gap =
-                std::max(std::min(progress.inner_gap, 0.1 * rule.relative_gap()), 0.3 * options.gap);
-        } else {
-            progress.inner_gap *= 0.1;
-        }
-        if (progress.inner_gap < smallest_inner_gap) {
-            rule.give_up(StopReason::residual_reached);
-            break;
-        }
-        update_working_set(stack, findings, result.passes > 1 && result.passes <= passes_that_shrink,
-                           working);
-        solve_inside(comm, problem, stack, working, prices, rule, progress, result);
+        const bool goes_on =
+            known || prepare_solve(stack, findings, options, result.passes, rule, working, progress);
+        if (!goes_on) break;
+        solve_inside(comm, problem, stack, working, prices, rule, progress, result, journal,
+                     known ? &known->spectral : nullptr);
+        known.reset();
+        if (progress.stopped) break;
         findings = pass.run(working, progress.row_sums);
         ++result.passes;
     }
+    if (journal != nullptr) close_journal(*journal, working, prices, rule, progress, result, was_finished);
     result.pass_cost = pass.cost();
     result.coefficients = nonzero_pairs(stack, working);
     result.working_pairs = all_sum(comm, working.pair_count());

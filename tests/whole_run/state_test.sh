@@ -32,7 +32,7 @@ ranks 2 "$COSEG" run "${options[@]}" --parts 2 --patches 20 --out "$work/plain" 
 run 2 first --parts 2 --patches 20 "$work/seven"
 same first && reported first meshes_described 7
 run 3 second --parts 2 --patches 20 "$work/seven"
-same second && reported second meshes_described 0 && reported second meshes_reused 7 && reported second tiles_solved 0
+same second && reported second meshes_described 0 && reported second meshes_reused 7 && reported second tiles_solved 0 && reported second cuts_reused 1
 echo "ok: a second run describes and solves nothing"
 
 run 2 other_parts --parts 3 --patches 20 --lambda 90 "$work/seven"
@@ -43,18 +43,22 @@ run 1 other_patches --parts 2 --patches 21 "$work/seven"
 reported other_patches meshes_described 7
 echo "ok: what changed is computed, no more"
 
-# Damage: one description, one run of tiles, one cut short.
+# Damage: one description, one cut short, one run of tiles, all cuts.
 mapfile -t kept < <(find "$state/meshes" -name '*.h5' -printf '%T@ %p\n' | sort | cut -d' ' -f2 | head -n 7)
 printf 'X' | dd of="${kept[0]}" bs=1 seek=5000 conv=notrunc status=none
 truncate -s 1000 "${kept[1]}"
 tiles=$(find "$state/solver" -name 'tiles-*.h5' -printf '%T@ %p\n' | sort | cut -d' ' -f2 | head -n 1)
 printf 'X' | dd of="$tiles" bs=1 seek=3000 conv=notrunc status=none
-refuses "damage is found" 3 "3 damaged" ranks 2 "$COSEG" state verify "$state"
+mapfile -t cuts < <(find "$state/cuts" -name '*.h5')
+for cut in "${cuts[@]}"; do printf 'X' | dd of="$cut" bs=1 seek=2500 conv=notrunc status=none; done
+refuses "damage is found" 3 "$((3 + ${#cuts[@]})) damaged" ranks 2 "$COSEG" state verify "$state"
 run 2 repaired --parts 2 --patches 20 "$work/seven"
 same repaired && reported repaired meshes_described 2
 for file in "${kept[0]}" "${kept[1]}" "$tiles"; do
     grep -q "warning: $file: is damaged.*set aside as $state/damaged/" "$work/err" || { cat "$work/err" >&2; fail "$file is not named"; }
 done
+grep -q "warning: $state/cuts/.*: is damaged.*and the cut is made anew" "$work/err" || { cat "$work/err" >&2; fail "the cut is not named"; }
+rm -f "${cuts[@]}"
 ranks 2 "$COSEG" state verify "$state" >"$work/out" || fail "verify after the repair"
 echo "ok: damaged files are named, set aside and made anew"
 
@@ -135,6 +139,21 @@ if mount -t tmpfs -o size=400k tmpfs "$small" 2>/dev/null; then
     mount -o remount,ro "$small"
     refuses "a read-only folder" 4 "cannot be written (Read-only file system)" \
         ranks 2 "$COSEG" run "${options[@]}" --parts 2 --state "$small/state" --out "$work/refused" "$work/seven"
+    # Room for the descriptions, none for what comes after them: the optimiser's progress, in both forms.
+    for scope in mesh paper; do
+        mount -o remount,rw,size=100m "$small"
+        rm -rf "$small/state"
+        ranks 1 "$COSEG" describe --quiet --geodesic-samples 100 --patches 20 --state "$small/state" "$work/seven"
+        mount -o "remount,size=$(($(du --block-size=1k --summarize "$small" | cut -f1) + 4))k" "$small"
+        refuses "a disk full after the descriptions, scope $scope" 4 "No space left on device" ranks 2 "$COSEG" run "${options[@]}" --parts 2 \
+            --patches 20 --scope "$scope" --checkpoint-seconds 0 --state "$small/state" --out "$work/refused" "$work/seven"
+        ranks 2 "$COSEG" state verify "$small/state" >"$work/out" || fail "a full disk leaves a damaged file"
+        mount -o remount,size=100m "$small"
+        ranks 2 "$COSEG" run "${options[@]}" --parts 2 --patches 20 --scope "$scope" --state "$small/state" --out "$work/room.$scope" "$work/seven"
+        ranks 1 "$COSEG" run "${options[@]}" --parts 2 --patches 20 --scope "$scope" --out "$work/plain.$scope" "$work/seven"
+        diff -r "$work/plain.$scope/labels" "$work/room.$scope/labels" >/dev/null || fail "other labels after a full disk, scope $scope"
+    done
+    echo "ok: with room again the same command continues"
 else
     echo "note: no right to mount a tmpfs here: full and read-only disks are not tried"
 fi
