@@ -124,7 +124,7 @@ class Run:
     def kill(self, way, rng):
         ranks = ranks_of(self.process.pid, self.options.coseg)
         if way.endswith(" rank"):
-            victims = [(rng.choice(ranks or [self.process.pid]), getattr(signal, "SIG" + way.split()[0]))]
+            victims = [(pid, getattr(signal, "SIG" + way.split()[0])) for pid in rng.sample(ranks, min(1, len(ranks)))]
         elif way == "KILL all":
             victims = [(pid, signal.SIGKILL) for pid in [*ranks, self.process.pid]]
         else:

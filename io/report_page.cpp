@@ -88,6 +88,7 @@ std::string page_data(const ReportPage& page) {
 std::string mesh_elements(const ReportPage& page) {
     std::string text;
     for (std::size_t k = 0; k < page.shapes.size(); ++k) {
+        if (page.shapes[k].packed.empty()) continue;
         text += "<script type=\"text/plain\" id=\"mesh" + std::to_string(k) + "\">" + page.shapes[k].packed +
                 "</script>\n";
     }

@@ -17,7 +17,7 @@ std::string packed_mesh(const TriMesh& mesh, const std::vector<int>& labels,
                         const std::vector<bool>& is_wrong);
 
 struct PageShape {
-    std::string packed;              ///< packed_mesh
+    std::string packed;              ///< packed_mesh; empty: the shape is in the table only
     std::optional<double> accuracy;  ///< 0..1, where the truth is known
 };
 

@@ -16,7 +16,10 @@ coseg_packages=(
 )
 
 # To build and run the tests as well.
-coseg_test_packages=(libgtest-dev python3 clang-format clang-tidy shellcheck procps file)
+coseg_test_packages=(
+    libgtest-dev python3 clang-format clang-tidy shellcheck procps file
+    slurm-wlm munge # for slurm_test.sh, which starts daemons of its own; the packages' own stay off without a slurm.conf
+)
 
 # missing_packages NAME... : those that are not installed, one a line.
 missing_packages() {

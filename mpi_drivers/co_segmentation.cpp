@@ -167,7 +167,7 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
                             const RunOptions& options, Journals* journals, StageLog& log) {
     Partitioned done;
     log.begin("optimise");
-    done.optimisation = optimise(comm, collection, features, options, tiles_of(journals));
+    done.optimisation = optimise(comm, collection, features, options, tiles_of(journals), &log);
     const SolveResult& solution = done.optimisation.result;
     log.end(describe(done.optimisation));
     if (options.parts > 1) refuse_empty_solution(solution, "the collection");

@@ -90,7 +90,7 @@ SubspaceProblem subspace_problem(const Collection& collection, const RunOptions&
 }  // namespace
 
 Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatures& features,
-                      const RunOptions& options, SolveJournal* journal) {
+                      const RunOptions& options, SolveJournal* journal, StageLog* log) {
     agree(comm, [&] { refuse_contradictions(options); });
     const int feature = chosen_feature(features, options);
     SubspaceProblem problem = subspace_problem(collection, options);
@@ -105,10 +105,14 @@ Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatu
             done.links = std::max(done.links, static_cast<int>(allowed.size()));
     }
     done.allowed_pairs = allowed_pair_count(problem);
+    const auto progress = [log](std::int64_t columns, std::int64_t all) {
+        if (log != nullptr) log->progress(columns, all);
+    };
     const SolveOptions solve{.gap = options.gap,
                              .max_iterations = options.max_iterations,
                              .max_seconds = options.max_seconds,
                              .solver = options.solver,
+                             .progress = progress,
                              .journal = journal};
     done.result = solve_variant(comm, problem, variant_of(options.variant), feature, solve);
     features.histograms = std::move(problem.features);

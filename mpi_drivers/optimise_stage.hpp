@@ -28,11 +28,12 @@ struct Optimisation {
     std::string warning;             ///< empty, or why the coefficients deserve a look
 };
 
-/// journal: see SolveOptions. The histograms of `features` are lent to the solver, so that they are in memory once, and are
+/// journal: see SolveOptions; log: is told of the progress, and may be null. The histograms of `features` are lent to the solver, so that they are in memory once, and are
 /// back when it returns. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what
 /// solve_variant throws.
 Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatures& features,
-                      const RunOptions& options, SolveJournal* journal = nullptr);
+                      const RunOptions& options, SolveJournal* journal = nullptr,
+                      StageLog* log = nullptr);
 
 /// One line for the log.
 std::string describe(const Optimisation& optimisation);

@@ -137,6 +137,7 @@ std::vector<std::string> write_sheets(const Comm& comm, const std::string& folde
                                       const std::vector<DrawnShape>& shapes_local, int shape_count) {
     const int pages = (shape_count + shapes_a_page - 1) / shapes_a_page;
     const int size = tile_size(shape_count);
+    const int index_step = (shape_count + shapes_an_index - 1) / shapes_an_index;
     std::vector<std::string> written;
     std::vector<SheetTile> thumbnails;
     const auto put = [&](const std::string& file, const std::vector<SheetTile>& tiles,
@@ -156,8 +157,10 @@ std::vector<std::string> write_sheets(const Comm& comm, const std::string& folde
             }
             std::filesystem::create_directories(folder + "/sheets");
             put(page_file(request.kind, page), tiles, page_heading(request, page, pages), 10);
-            for (const SheetTile& tile : tiles)
-                thumbnails.push_back({shrunk(tile.picture, thumbnail, thumbnail), tile.caption});
+            for (std::size_t k = 0; k < tiles.size(); ++k) {
+                if ((begin + static_cast<int>(k)) % index_step != 0) continue;
+                thumbnails.push_back({shrunk(tiles[k].picture, thumbnail, thumbnail), tiles[k].caption});
+            }
         });
     }
     if (pages > 1) {
@@ -165,7 +168,9 @@ std::vector<std::string> write_sheets(const Comm& comm, const std::string& folde
             if (!comm.is_root()) return;
             SheetHeading heading = request.heading;
             heading.subtitle += ", " + std::to_string(pages) + " pages in sheets/";
-            put(sheet_file(request.kind), thumbnails, heading, sheet_columns(shape_count));
+            if (index_step > 1) heading.subtitle += ", here 1 in " + std::to_string(index_step);
+            put(sheet_file(request.kind), thumbnails, heading,
+                sheet_columns(static_cast<int>(thumbnails.size())));
         });
     }
     return written;

@@ -13,6 +13,8 @@ namespace coseg {
 
 /// Up to here a collection fits on one page; beyond, contact_sheet.png is an index of thumbnails.
 inline constexpr int shapes_a_page = 60;
+/// Of so many shapes at most: of a larger collection every second, third ... shape.
+inline constexpr int shapes_an_index = 1500;
 
 struct DrawnShape {
     int number = 0;  ///< in the collection

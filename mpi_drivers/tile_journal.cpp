@@ -49,7 +49,7 @@ std::vector<T> part_of(const std::vector<T>& all, std::int64_t from, std::int64_
 ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& options) {
     // One name for each field: a new one does not compile until it has been thought of here.
     const auto& [features, alpha, beta, lambda, scope, mesh_of, allowed_meshes] = problem;
-    const auto& [gap, max_iterations, max_seconds, solver, journal] = options;
+    const auto& [gap, max_iterations, max_seconds, solver, progress, journal] = options;
     ContentHasher hasher;
     hasher.add(source_fingerprint());
     hasher.add(std::int64_t{tiles_version});
@@ -64,6 +64,7 @@ ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& opti
         hasher.add(std::span<const double>(feature.data(), static_cast<std::size_t>(feature.size())));
     }
     static_cast<void>(max_seconds);  // a tile that the clock cut short is not kept
+    static_cast<void>(progress);
     static_cast<void>(journal);
     return hasher.result();
 }

@@ -345,6 +345,7 @@ SolveResult solve_mesh_scope(const Comm& comm, const SubspaceProblem& problem, c
         const SolvedTile tile =
             known ? *known : solver.solve_tile(begin, std::min(begin + coefficient_tile, owned.end));
         add_tile(tile, result.coefficients, sums, totals);
+        if (options.progress) options.progress(tile.end - owned.begin, owned.size());
         if (journal == nullptr) continue;
         if (!known && !solver.timed_out()) journal->keep(tile);
         stopped = journal->should_stop();

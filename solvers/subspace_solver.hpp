@@ -1,6 +1,7 @@
 #pragma once
 // One interface to all solvers of the subspace problem, with a certificate of how close the answer is.
 
+#include <functional>
 #include <string>
 
 #include "solvers/coefficients.hpp"
@@ -15,6 +16,8 @@ struct SolveOptions {
     int max_iterations = 200000;      ///< of the inner method; scope mesh: per column
     double max_seconds = 3600.0;      ///< wall time
     std::string solver = "auto";      ///< "auto", "dense" (scope paper only) or "working-set"
+    /// Scope mesh: told of this rank's columns, solved and in all, after every tile; may be empty.
+    std::function<void(std::int64_t, std::int64_t)> progress = {};
     SolveJournal* journal = nullptr;  ///< keeps finished tiles or the iterate; none by default
 };
 

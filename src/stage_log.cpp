@@ -36,7 +36,7 @@ bool StageLog::shows_bar() const {
 
 void StageLog::begin(const std::string& stage) {
     stage_ = stage;
-    stage_start_ = Clock::now();
+    stage_start_ = last_progress_ = Clock::now();
     own_seconds_ = -1.0;
     steps_.clear();
     if (!shows_bar()) return;
@@ -45,8 +45,29 @@ void StageLog::begin(const std::string& stage) {
     bar_shown_ = true;
 }
 
+/// For the log of a job.
+void StageLog::print_progress(std::int64_t done, std::int64_t total) {
+    constexpr std::chrono::seconds interval{60};
+    const Clock::time_point now = Clock::now();
+    if (!comm_.is_root() || verbosity_ == Verbosity::quiet || done <= 0 || now - last_progress_ < interval) return;
+    last_progress_ = now;
+    const double so_far = std::chrono::duration<double>(now - stage_start_).count();
+    const double left = so_far * static_cast<double>(total - done) / static_cast<double>(done);
+    if (form_ == LogForm::json) {
+        std::fprintf(stderr,
+                     "{\"event\": \"progress\", \"stage\": %s, \"done\": %lld, \"total\": %lld, "
+                     "\"seconds_left\": %.0f}\n",
+                     quoted(stage_).c_str(), static_cast<long long>(done), static_cast<long long>(total), left);
+    } else {
+        std::fprintf(stderr, "%-14s %7.2f s  %lld of %lld, about %.0f s left\n", stage_.c_str(), so_far,
+                     static_cast<long long>(done), static_cast<long long>(total), left);
+    }
+    std::fflush(stderr);
+}
+
 void StageLog::progress(std::int64_t done, std::int64_t total) {
-    if (!shows_bar() || total <= 0) return;
+    if (total <= 0) return;
+    if (!shows_bar()) return print_progress(done, total);
     constexpr int width = 30;
     const int filled = static_cast<int>(width * done / total);
     std::fprintf(stderr, "\r\033[K%-14s [%-*.*s] %3lld %%  %lld/%lld", stage_.c_str(), width, filled,

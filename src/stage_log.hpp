@@ -34,8 +34,8 @@ class StageLog {
 
     void begin(const std::string& stage);
 
-    /// The share done and the time left, in one line that is drawn over; shown on rank 0 where standard error is a
-    /// terminal. Not collective.
+    /// The share done and the time left, on rank 0: in one line that is drawn over where standard error is a terminal, else a
+    /// line a minute. Not collective.
     void progress(std::int64_t done, std::int64_t total);
 
     /// Ends this rank's own work in the stage: what follows until end() is waiting. Not collective.
@@ -57,6 +57,7 @@ class StageLog {
   private:
     using Clock = std::chrono::steady_clock;
     void clear_bar();
+    void print_progress(std::int64_t done, std::int64_t total);
     [[nodiscard]] bool shows_bar() const;
     void print(const StageTimes& times, const std::string& summary) const;
 
@@ -68,6 +69,7 @@ class StageLog {
     std::string stage_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point stage_start_;
+    Clock::time_point last_progress_;
     double own_seconds_ = -1.0;
     std::vector<StepTime> steps_;  // of this rank
     std::vector<StageTimes> stages_;

@@ -36,6 +36,10 @@
 
   // ---- the shapes' meshes, decoded when they are first looked at
 
+  // Of a very large collection not every shape is in the page.
+  const solids = shapes.filter((shape) => element("mesh" + shape.number));
+  const isSolid = new Set(solids.map((shape) => shape.number));
+
   const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
 
   function decode(number) {
@@ -137,7 +141,7 @@
     constructor(parent) {
       this.select = make("select", parent);
       this.select.setAttribute("aria-label", "shape");
-      for (const shape of shapes) make("option", this.select, shape.name).value = shape.number;
+      for (const shape of solids) make("option", this.select, shape.name).value = shape.number;
       this.select.addEventListener("change", () => this.show(Number(this.select.value)));
       this.canvas = make("canvas", parent);
       this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, preserveDrawingBuffer: true });
@@ -215,7 +219,9 @@
       element("viewerA").textContent = "This browser offers no WebGL, so shapes cannot be turned here.";
       return;
     }
-    viewers[0].show(0);
+    viewers[0].show(solids[0].number);
+    if (solids.length < shapes.length)
+      make("div", element("tools").parentElement, solids.length + " of " + shapes.length + " shapes can be turned here.", "faint");
     const redraw = () => viewers.forEach((viewer) => viewer.draw());
     for (let part = 0; part < partCount; ++part) {
       const button = toggleButton(element("parts"), "part " + part, "part", true, (isShown) => {
@@ -229,7 +235,7 @@
     toggleButton(element("tools"), "compare two", "tool", false, (isOn) => {
       element("viewerB").hidden = !isOn;
       if (isOn && viewers.length === 1) viewers.push(new Viewer(element("viewerB")));
-      if (isOn && viewers[1].number < 0) viewers[1].show(Math.min(1, shapes.length - 1));
+      if (isOn && viewers[1].number < 0) viewers[1].show(solids[Math.min(1, solids.length - 1)].number);
       redraw();
       if (isOn) viewers[0].turned();
     }).id = "compare";
@@ -273,7 +279,7 @@
       }
       row.addEventListener("click", (event) => {
         const second = event.shiftKey && viewers.length > 1 && !element("viewerB").hidden;
-        if (viewers.length) viewers[second ? 1 : 0].show(shape.number);
+        if (viewers.length && isSolid.has(shape.number)) viewers[second ? 1 : 0].show(shape.number);
       });
       return { row, shape };
     });
