@@ -180,8 +180,8 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
 }
 
 Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
-                                 const PatchFeatures& features, const RunOptions& options,
-                                 Journals* journals, StageLog& log) {
+                                 const PatchFeatures& features, const RunOptions& options, Journals* journals,
+                                 StageLog& log) {
     log.begin("subsets");
     SubsetOutcome outcome =
         partition_subsets(comm, collection, features, options, tiles_of(journals), cuts_of(journals));

@@ -79,8 +79,8 @@ bool is_complete(const std::vector<IterateFile>& files, std::int64_t size) {
 
 void write_iterate(const std::string& path, const SolveIterate& iterate, int features) {
     // One name for each field: a new one does not compile until it has been thought of here.
-    const auto& [columns, offsets, rows, weights, prices, spectral, inner_gap, lower_bound, iterations, passes,
-                 finished, objective, residual, reason] = iterate;
+    const auto& [columns, offsets, rows, weights, prices, spectral, inner_gap, lower_bound, iterations,
+                 passes, finished, objective, residual, reason] = iterate;
     const auto& [step, recent, count, inner_iterations] = spectral;
     Hdf5Writer file(path, iterate_format, iterate_version);
     file.attribute("source_fingerprint", source_fingerprint());
@@ -94,8 +94,7 @@ void write_iterate(const std::string& path, const SolveIterate& iterate, int fea
     file.write("weights", weights, {rows.size(), static_cast<std::uint64_t>(features)});
     file.write("prices", prices);
     file.write("recent", std::vector<double>(recent.begin(), recent.end()));
-    file.write("numbers",
-               std::vector<double>{step, inner_gap, lower_bound, objective, residual});
+    file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual});
     file.write("counts", std::vector<std::int64_t>{count, inner_iterations, iterations, passes,
                                                    finished ? 1 : 0, reason});
     file.commit();

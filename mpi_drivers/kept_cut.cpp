@@ -19,9 +19,12 @@ constexpr const char* cut_format = "coseg cut";
 constexpr int cut_version = 1;
 
 /// These change where things are, what is said or what is drawn.
-constexpr std::array<const char*, 16> without_effect{
-    "out",   "state",         "checkpoint-seconds", "config", "force",   "quiet", "verbose",    "json-log",
-    "sheet", "html",          "view",               "up",     "refine",  "strict", "max-seconds", "keep-features"};
+constexpr std::array<const char*, 16> without_effect{"out",          "state",    "checkpoint-seconds",
+                                                     "config",       "force",    "quiet",
+                                                     "verbose",      "json-log", "sheet",
+                                                     "html",         "view",     "up",
+                                                     "refine",       "strict",   "max-seconds",
+                                                     "keep-features"};
 
 /// The hashes of this rank's pieces, gathered in the global order of the pieces.
 ContentHash hash_of_pieces(const Comm& comm, const std::vector<ContentHash>& pieces_local) {
@@ -84,12 +87,13 @@ ContentHash hash_of_relations(const Comm& comm, const Collection& collection) {
     std::vector<std::int64_t> words;
     for (const MeshDescription& mesh : collection.local) {
         const ContentHash hash = hash_of_relations(mesh);
-        words.insert(words.end(), {mesh.mesh, static_cast<std::int64_t>(hash.high),
-                                   static_cast<std::int64_t>(hash.low)});
+        words.insert(words.end(),
+                     {mesh.mesh, static_cast<std::int64_t>(hash.high), static_cast<std::int64_t>(hash.low)});
     }
     words = all_gather(comm, std::span<const std::int64_t>(words));
     std::vector<std::array<std::int64_t, 3>> rows;
-    for (std::size_t k = 0; k + 2 < words.size(); k += 3) rows.push_back({words[k], words[k + 1], words[k + 2]});
+    for (std::size_t k = 0; k + 2 < words.size(); k += 3)
+        rows.push_back({words[k], words[k + 1], words[k + 2]});
     std::sort(rows.begin(), rows.end());
     ContentHasher hasher;
     for (const auto& row : rows) hasher.add(std::span<const std::int64_t>(row));
@@ -116,13 +120,14 @@ void write_starts(Hdf5Writer& file, const std::vector<StartOutcome>& starts) {
     std::vector<double> eigenvalues;
     for (const StartOutcome& outcome : starts) {
         // One name for each field: a new one does not compile until it has been thought of here.
-        const auto& [start, terms, presence, score, in_reserve, parts_found, set_aside, unreached, values] = outcome;
+        const auto& [start, terms, presence, score, in_reserve, parts_found, set_aside, unreached, values] =
+            outcome;
         const auto& [cut, clusters, merging, rule] = start;
         const auto& [association, concavity, entropy, evenness] = terms;
-        numbers.insert(numbers.end(), {cut.adjacency, cut.overlap, merging.adjacency, merging.overlap, association,
-                                       concavity, entropy, evenness, presence, score});
-        counts.insert(counts.end(), {clusters, static_cast<int>(rule), in_reserve ? 1 : 0, parts_found, set_aside,
-                                     unreached, static_cast<int>(values.size())});
+        numbers.insert(numbers.end(), {cut.adjacency, cut.overlap, merging.adjacency, merging.overlap,
+                                       association, concavity, entropy, evenness, presence, score});
+        counts.insert(counts.end(), {clusters, static_cast<int>(rule), in_reserve ? 1 : 0, parts_found,
+                                     set_aside, unreached, static_cast<int>(values.size())});
         eigenvalues.insert(eigenvalues.end(), values.begin(), values.end());
     }
     file.write("starts/numbers", numbers, {starts.size(), 10});
@@ -194,7 +199,8 @@ CutResult read_cut(const std::string& path) {
 CutResult CutJournal::cut(const Collection& collection, const PatchFeatures& features,
                           const SparseCoefficients& coefficients, const RunOptions& options) {
     // Clusters of descriptors take no longer than looking them up.
-    if (options.partition == "diffusion") return cut_into_parts(comm_, collection, features, coefficients, options);
+    if (options.partition == "diffusion")
+        return cut_into_parts(comm_, collection, features, coefficients, options);
     const std::string file =
         state_.folder().cut_file(cut_key(comm_, collection, features, coefficients, options_));
     std::vector<std::string> damage;
@@ -216,7 +222,8 @@ CutResult CutJournal::cut(const Collection& collection, const PatchFeatures& fea
     if (comm_.is_root() && !damage.empty()) aside = {state_.folder().set_aside(file)};
     broadcast_texts(comm_, aside);
     if (!damage.empty())
-        warnings_.push_back(damage.front() + "; it is set aside as " + aside.front() + " and the cut is made anew");
+        warnings_.push_back(damage.front() + "; it is set aside as " + aside.front() +
+                            " and the cut is made anew");
     state_.end_if_asked(comm_, "all meshes and the optimiser's tiles");
     CutResult cut = cut_into_parts(comm_, collection, features, coefficients, options);
     agree(comm_, [&] {
@@ -228,7 +235,8 @@ CutResult CutJournal::cut(const Collection& collection, const PatchFeatures& fea
 }
 
 CutResult cut_or_found(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                       const SparseCoefficients& coefficients, const RunOptions& options, CutJournal* journal) {
+                       const SparseCoefficients& coefficients, const RunOptions& options,
+                       CutJournal* journal) {
     return journal != nullptr ? journal->cut(collection, features, coefficients, options)
                               : cut_into_parts(comm, collection, features, coefficients, options);
 }

@@ -41,7 +41,8 @@ class CutJournal {
 
 /// cut_into_parts, through the journal if there is one. Collective; throws as CutJournal::cut.
 CutResult cut_or_found(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                       const SparseCoefficients& coefficients, const RunOptions& options, CutJournal* journal);
+                       const SparseCoefficients& coefficients, const RunOptions& options,
+                       CutJournal* journal);
 
 /// A cut as a file. Throws Error(output).
 void write_cut(const std::string& path, const CutResult& cut);

@@ -32,8 +32,7 @@ struct Optimisation {
 /// back when it returns. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what
 /// solve_variant throws.
 Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatures& features,
-                      const RunOptions& options, SolveJournal* journal = nullptr,
-                      StageLog* log = nullptr);
+                      const RunOptions& options, SolveJournal* journal = nullptr, StageLog* log = nullptr);
 
 /// One line for the log.
 std::string describe(const Optimisation& optimisation);

@@ -13,7 +13,7 @@ namespace coseg {
 /// are optimised and cut as patches are, and every patch takes its segment's part. `first` is the first pass, whose starts
 /// the result keeps. The journals may be null. Source: the paper, section 4. Collective. Throws as partition_subsets.
 CutResult partition_segments(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                             const CutResult& first, const RunOptions& options,
-                             SolveJournal* journal, CutJournal* cuts);
+                             const CutResult& first, const RunOptions& options, SolveJournal* journal,
+                             CutJournal* cuts);
 
 }  // namespace coseg

@@ -125,9 +125,11 @@ PetscMatrix to_petsc(const Comm& comm, const SparseRows& matrix) {
     check(MatCreate(comm.raw(), result.out()), "MatCreate");
     check(MatSetSizes(result.get(), rows, rows, size, size), "MatSetSizes");
     check(MatSetType(result.get(), MATAIJ), "MatSetType");
-    check(MatSeqAIJSetPreallocationCSR(result.get(), offsets.data(), matrix.columns.data(), matrix.values.data()),
+    check(MatSeqAIJSetPreallocationCSR(result.get(), offsets.data(), matrix.columns.data(),
+                                       matrix.values.data()),
           "MatSeqAIJSetPreallocationCSR");
-    check(MatMPIAIJSetPreallocationCSR(result.get(), offsets.data(), matrix.columns.data(), matrix.values.data()),
+    check(MatMPIAIJSetPreallocationCSR(result.get(), offsets.data(), matrix.columns.data(),
+                                       matrix.values.data()),
           "MatMPIAIJSetPreallocationCSR");
     return result;
 }

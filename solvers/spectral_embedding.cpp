@@ -370,8 +370,8 @@ void release_entries(SparseRows& matrix) {
     matrix.values = {};
 }
 
-EigenPairs sparse_eigenpairs(const Comm& comm, CutOperator& op, int count,
-                             const SpectralOptions& options, const std::vector<int>& mesh_of) {
+EigenPairs sparse_eigenpairs(const Comm& comm, CutOperator& op, int count, const SpectralOptions& options,
+                             const std::vector<int>& mesh_of) {
     EigenPairs pairs = options.offset == 0.0 ? component_eigenpairs(op) : EigenPairs{};
     const int wanted = count - static_cast<int>(pairs.values.size());
     if (wanted <= 0) return pairs;

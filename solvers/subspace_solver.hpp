@@ -12,10 +12,10 @@
 namespace coseg {
 
 struct SolveOptions {
-    double gap = 1e-4;                ///< stop at this relative gap; see SolveResult::relative_gap
-    int max_iterations = 200000;      ///< of the inner method; scope mesh: per column
-    double max_seconds = 3600.0;      ///< wall time
-    std::string solver = "auto";      ///< "auto", "dense" (scope paper only) or "working-set"
+    double gap = 1e-4;            ///< stop at this relative gap; see SolveResult::relative_gap
+    int max_iterations = 200000;  ///< of the inner method; scope mesh: per column
+    double max_seconds = 3600.0;  ///< wall time
+    std::string solver = "auto";  ///< "auto", "dense" (scope paper only) or "working-set"
     /// Scope mesh: told of this rank's columns, solved and in all, after every tile; may be empty.
     std::function<void(std::int64_t, std::int64_t)> progress = {};
     SolveJournal* journal = nullptr;  ///< keeps finished tiles or the iterate; none by default

@@ -104,7 +104,8 @@ void restore(const FeatureStack& stack, const SolveIterate& iterate, WorkingSet&
         working.fits[c].rows.assign(iterate.rows.begin() + begin, iterate.rows.begin() + end);
         working.fits[c].weights.assign(iterate.weights.begin() + begin * features,
                                        iterate.weights.begin() + end * features);
-        prepare_column_fit(stack, static_cast<int>(working.columns.begin) + static_cast<int>(c), working.fits[c]);
+        prepare_column_fit(stack, static_cast<int>(working.columns.begin) + static_cast<int>(c),
+                           working.fits[c]);
     }
     prices = iterate.prices;
 }
@@ -151,7 +152,8 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
 
 /// Takes up an iterate that a journal has kept. A finished one leaves nothing to do.
 PassFindings resume(const FeatureStack& stack, const SolveIterate& known, WorkingSet& working,
-                    std::vector<double>& prices, StoppingRule& rule, Progress& progress, SolveResult& result) {
+                    std::vector<double>& prices, StoppingRule& rule, Progress& progress,
+                    SolveResult& result) {
     restore(stack, known, working, prices);
     progress.inner_gap = known.inner_gap;
     result.iterations = known.iterations;

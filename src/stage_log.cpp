@@ -49,7 +49,8 @@ void StageLog::begin(const std::string& stage) {
 void StageLog::print_progress(std::int64_t done, std::int64_t total) {
     constexpr std::chrono::seconds interval{60};
     const Clock::time_point now = Clock::now();
-    if (!comm_.is_root() || verbosity_ == Verbosity::quiet || done <= 0 || now - last_progress_ < interval) return;
+    if (!comm_.is_root() || verbosity_ == Verbosity::quiet || done <= 0 || now - last_progress_ < interval)
+        return;
     last_progress_ = now;
     const double so_far = std::chrono::duration<double>(now - stage_start_).count();
     const double left = so_far * static_cast<double>(total - done) / static_cast<double>(done);
@@ -57,7 +58,8 @@ void StageLog::print_progress(std::int64_t done, std::int64_t total) {
         std::fprintf(stderr,
                      "{\"event\": \"progress\", \"stage\": %s, \"done\": %lld, \"total\": %lld, "
                      "\"seconds_left\": %.0f}\n",
-                     quoted(stage_).c_str(), static_cast<long long>(done), static_cast<long long>(total), left);
+                     quoted(stage_).c_str(), static_cast<long long>(done), static_cast<long long>(total),
+                     left);
     } else {
         std::fprintf(stderr, "%-14s %7.2f s  %lld of %lld, about %.0f s left\n", stage_.c_str(), so_far,
                      static_cast<long long>(done), static_cast<long long>(total), left);

@@ -63,7 +63,8 @@ SubspaceProblem paper_problem() {
 }
 
 SolveOptions precise(SolveJournal* journal) {
-    return {.gap = 1e-9, .max_iterations = 100000, .max_seconds = 3600.0, .solver = "auto", .journal = journal};
+    return {
+        .gap = 1e-9, .max_iterations = 100000, .max_seconds = 3600.0, .solver = "auto", .journal = journal};
 }
 
 constexpr int never = std::numeric_limits<int>::max();

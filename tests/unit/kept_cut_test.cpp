@@ -1,0 +1,67 @@
+#include "mpi_drivers/kept_cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace coseg {
+namespace {
+
+TEST(KeptCut, ReturnsWhatWasWritten) {
+    const test::TemporaryFolder folder;
+    CutResult cut;
+    cut.part_of_patch = {0, 2, 1, 1};
+    cut.part_share = {0.5, 0.3, 0.2};
+    cut.meshes_with_part = {2, 2, 1};
+    cut.starts.resize(2);
+    cut.starts[0].start = {{1.0, 2.0}, 5, {4.0, 8.0}, MergeRule::normalized_cut};
+    cut.starts[0].terms = {0.9, 0.1, 1.0 / 3.0, -0.25};
+    cut.starts[0].presence = 0.75;
+    cut.starts[0].score = -1.5;
+    cut.starts[0].eigenvalues = {1.0, 0.5};
+    cut.starts[1].in_reserve = true;
+    cut.starts[1].parts_found = 3;
+    cut.starts[1].set_aside = 4;
+    cut.starts[1].unreached = 1;
+    cut.starts[1].eigenvalues = {0.99};
+    cut.chosen = 1;
+    cut.reserve_agreement = 0.97;
+    write_cut(folder.path("cut.h5"), cut);
+    const CutResult read = read_cut(folder.path("cut.h5"));
+    EXPECT_EQ(read.part_of_patch, cut.part_of_patch);
+    EXPECT_EQ(read.part_share, cut.part_share);
+    EXPECT_EQ(read.meshes_with_part, cut.meshes_with_part);
+    EXPECT_EQ(read.chosen, cut.chosen);
+    EXPECT_EQ(read.reserve_agreement, cut.reserve_agreement);
+    ASSERT_EQ(read.starts.size(), cut.starts.size());
+    for (std::size_t k = 0; k < cut.starts.size(); ++k) {
+        const StartOutcome& a = read.starts[k];
+        const StartOutcome& b = cut.starts[k];
+        EXPECT_EQ(a.start.cut, b.start.cut);
+        EXPECT_EQ(a.start.clusters, b.start.clusters);
+        EXPECT_EQ(a.start.merging, b.start.merging);
+        EXPECT_EQ(a.start.rule, b.start.rule);
+        EXPECT_EQ(a.terms.association, b.terms.association);
+        EXPECT_EQ(a.terms.concavity, b.terms.concavity);
+        EXPECT_EQ(a.terms.entropy, b.terms.entropy);
+        EXPECT_EQ(a.terms.evenness, b.terms.evenness);
+        EXPECT_EQ(a.presence, b.presence);
+        EXPECT_EQ(a.score, b.score);
+        EXPECT_EQ(a.in_reserve, b.in_reserve);
+        EXPECT_EQ(a.parts_found, b.parts_found);
+        EXPECT_EQ(a.set_aside, b.set_aside);
+        EXPECT_EQ(a.unreached, b.unreached);
+        EXPECT_EQ(a.eigenvalues, b.eigenvalues);
+    }
+}
+
+TEST(KeptCut, OptionsWithoutEffectAreLeftOut) {
+    const std::string text =
+        cut_option_text({{"parts", "3"}, {"out", "here"}, {"alpha", "0.1"}}, {"-eps_ncv", "80"});
+    EXPECT_EQ(text, "parts=3\nalpha=0.1\n-eps_ncv\n80\n");
+    EXPECT_EQ(text, cut_option_text({{"parts", "3"}, {"out", "there"}, {"quiet", "true"}, {"alpha", "0.1"}},
+                                    {"-eps_ncv", "80"}));
+}
+
+}  // namespace
+}  // namespace coseg
