@@ -128,7 +128,8 @@ def run(options, meshes, parts, out):
             continue
         now = watch.cpu_seconds()
         stages.append({"stage": event["stage"], "wall": event["seconds"], "cpu": now - cpu,
-                       "peak_mib": watch.take_stage_peak() / 1024, "summary": event["summary"]})
+                       "peak_mib": watch.take_stage_peak() / 1024,
+                       "summary": "" if "/" in event["summary"] else event["summary"]})
         cpu = now
         if options.verbose:
             print(json.dumps(stages[-1]), file=sys.stderr, flush=True)
@@ -179,7 +180,7 @@ def markdown(rows):
         lines += ["", f"| stage, {row['shapes']} shapes | wall s | CPU s | memory in all, MiB | |", "| --- | ---: | ---: | ---: | --- |"]
         for stage in row["stages"]:
             lines.append(f"| {stage['stage']} | {stage['wall']:.1f} | {stage['cpu']:.1f} | {stage['peak_mib']:.0f} | "
-                         f"{stage['summary'] if '/' not in stage['summary'] else ''} |")
+                         f"{stage['summary']} |")
     return "\n".join(lines) + "\n"
 
 
