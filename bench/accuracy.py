@@ -3,10 +3,13 @@
 
 usage: bench/accuracy.py [--coseg build/bin/coseg] [--data $COSEG_DATA] [--sets NAME ...] [--presets default paper]
                          [--seeds 1 2 3] [--ranks 2] [--out accuracy.json] [--table docs/accuracy.md]
+                         [--generated SHAPES [FAMILY ...]]
 
 The data folder is either a folder of sets, each with meshes, a NAME.seg of truth for every mesh and labels.txt, or the
 Princeton Segmentation Benchmark: off/N.off and "human seg"/Benchmark/N/N_ANNOTATOR.seg (or seg/Benchmark/...); its
 categories are then the sets. A preset may be followed by options, in quotes: "default --refine none".
+
+--generated measures on collections of so many shapes of each family of `coseg generate` (seed 1) instead of a data folder.
 
 K is the number of truth labels. Every figure is what `coseg score` prints for the labels of one `coseg run`: area
 rightly labelled in percent, mean over the shapes of a set; means and sample deviations over seeds. For the Princeton
@@ -92,6 +95,21 @@ def find_sets(data, wanted):
     if missing or not sets:
         sys.exit(f"accuracy: no set {missing[0] if missing else ''} in {data}; there are: {', '.join(sets) or 'none'}")
     return {name: sets[name] for name in sets if not wanted or name in wanted}
+
+
+def generated_sets(coseg, shapes, families, folder):
+    listing = command_output([coseg, "generate", "--list"], 60)
+    known = [line.split()[0] for line in listing.splitlines() if line.strip()]
+    unknown = sorted(set(families) - set(known))
+    if unknown:
+        sys.exit(f"accuracy: no family {unknown[0]}; there are: {', '.join(known)}")
+    sets = {}
+    for family in families or known:
+        made = os.path.join(folder, family)
+        command_output([coseg, "generate", family, "--count", str(shapes), "--seed", "1", "--out", made], 3600)
+        truth = os.path.join(made, "truth")
+        sets[f"generated_{family}"] = {"parts": truth_labels(truth), "meshes": [os.path.join(made, "meshes")], "truth": truth}
+    return sets
 
 
 def command_output(words, timeout):
@@ -263,6 +281,8 @@ def annotator_table(figures, sets, presets, seeds):
 def document(args, sets, figures):
     seeds = ", ".join(str(seed) for seed in args.seeds)
     command = "bench/accuracy.py" + (" --presets " + shlex.join(args.presets) if args.presets != ["default", "paper"] else "")
+    if args.generated:
+        command += " --generated " + shlex.join(args.generated)
     text = ("# Accuracy\n\n"
             f"Written by `{command}`: seeds {seeds}, {args.ranks} ranks, one set of parameters a preset. One-to-one accuracy by "
             "area in percent, mean over the shapes of a set, ± sample deviation over seeds. \"One label\" is what a single part "
@@ -287,6 +307,7 @@ def main():
     parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
     parser.add_argument("--data", default=os.environ.get("COSEG_DATA"))
     parser.add_argument("--sets", nargs="+")
+    parser.add_argument("--generated", nargs="+", metavar=("SHAPES", "FAMILY"))
     parser.add_argument("--presets", nargs="+", default=["default", "paper"])
     parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
     parser.add_argument("--ranks", type=int, default=2)
@@ -295,14 +316,21 @@ def main():
     parser.add_argument("--out", default="accuracy.json")
     parser.add_argument("--table", default=os.path.join(PROJECT, "docs", "accuracy.md"))
     args = parser.parse_args()
-    if not args.data:
-        sys.exit("accuracy: give the folder of sets with --data or COSEG_DATA")
+    if not args.data and not args.generated:
+        sys.exit("accuracy: give the folder of sets with --data or COSEG_DATA, or --generated")
     if not os.path.isfile(args.coseg):
         sys.exit(f"accuracy: no program {args.coseg}; build it, or give its path with --coseg")
-    sets = find_sets(args.data, args.sets)
-    figures = read_figures(args.out)
-    failures = run_all(args, sets, figures)
-    write_whole(args.table, document(args, sets, figures))
+    with tempfile.TemporaryDirectory() as scratch:
+        if args.generated:
+            shapes, *families = args.generated
+            if not shapes.isdigit() or int(shapes) < 2:
+                sys.exit(f"accuracy: --generated takes a number of shapes of at least 2, not {shapes}")
+            sets = generated_sets(args.coseg, int(shapes), families, scratch)
+        else:
+            sets = find_sets(args.data, args.sets)
+        figures = read_figures(args.out)
+        failures = run_all(args, sets, figures)
+        write_whole(args.table, document(args, sets, figures))
     if failures:
         sys.exit(f"accuracy: {len(failures)} of the runs failed; call again to repeat them")
 

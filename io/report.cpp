@@ -87,13 +87,14 @@ Json of_partition(const Report& report) {
         starts.push_back({{"adjacency", s.adjacency},
                           {"clusters", s.clusters},
                           {"score", s.score},
+                          {"concavity", s.concavity},
                           {"presence", s.presence},
-                          {"reserve", s.is_reserve}});
+                          {"recall", s.recall},
+                          {"explained", s.explained}});
     }
     return {{"eigenvalues", report.eigenvalues},
             {"starts", starts},
             {"chosen_start", report.chosen_start},
-            {"reserve_agreement", report.reserve_agreement},
             {"part_area", report.part_area},
             {"affinity", {{"rows", report.affinity_rows}, {"part_ends", report.affinity_part_ends}}}};
 }

@@ -66,8 +66,10 @@ struct ReportStart {
     double adjacency = 0.0;
     int clusters = 0;
     double score = 0.0;
+    double concavity = 0.0;
     double presence = 0.0;
-    bool is_reserve = false;
+    double recall = 0.0;
+    std::vector<double> explained;
 };
 
 struct ReportStrength {
@@ -104,7 +106,6 @@ struct Report {
     std::vector<double> eigenvalues;
     std::vector<ReportStart> starts;
     int chosen_start = 0;
-    double reserve_agreement = 0.0;
     std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
     std::vector<ReportStrength> feature_strengths;
     std::vector<double>

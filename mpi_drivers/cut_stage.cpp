@@ -44,13 +44,28 @@ CutOptions cut_options(const RunOptions& options) {
     }
     if (options.choose) {
         cut.starts = pooled_starts(options.parts);
-        if (options.reserve) cut.reserve = articulated_starts(options.parts);
+        if (options.articulated) {
+            const std::vector<CutStart> more = articulated_starts(options.parts);
+            cut.starts.insert(cut.starts.end(), more.begin(), more.end());
+        }
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
         const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
         for (CutStart& start : cut.starts) start.cut = start.merging = weights;
     }
     return cut;
+}
+
+/// The descriptors that tell parts from each other in all of the labelled and generated collections; weights fitted on
+/// them, each left out in turn (docs/method.md).
+std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features) {
+    std::vector<ChoiceDescriptor> descriptors;
+    for (std::size_t h = 0; h < features.histograms.size(); ++h) {
+        const auto feature = static_cast<Feature>(features.feature_of[h]);
+        if (feature == Feature::gaussian_curvature) descriptors.push_back({features.histograms[h], 1.0});
+        if (feature == Feature::shape_diameter) descriptors.push_back({features.histograms[h], 2.1});
+    }
+    return descriptors;
 }
 
 }  // namespace
@@ -65,8 +80,9 @@ CutResult cut_into_parts(const Comm& comm, const Collection& collection, const P
     }
     const std::vector<PatchRelation> neighbors = local_neighbors(collection);
     const std::vector<OverlapRelation> overlaps = local_overlaps(collection);
-    return co_segmentation_cut(comm, {coefficients, neighbors, overlaps, mesh_of, features.patch_area},
-                               cut_options(options));
+    return co_segmentation_cut(
+        comm, {coefficients, neighbors, overlaps, mesh_of, features.patch_area, choice_descriptors(features)},
+        cut_options(options));
 }
 
 }  // namespace coseg

@@ -93,11 +93,11 @@ void add_strengths(Report& report, const FeatureStrength& strength, const RunOut
 
 void add_partition(Report& report, const CutResult& cut) {
     for (const StartOutcome& start : cut.starts) {
-        report.starts.push_back(
-            {start.start.cut.adjacency, start.start.clusters, start.score, start.presence, start.in_reserve});
+        report.starts.push_back({start.start.cut.adjacency, start.start.clusters, start.score,
+                                 start.terms.concavity, start.terms.presence, start.terms.recall,
+                                 start.terms.explained});
     }
     report.chosen_start = cut.chosen;
-    report.reserve_agreement = cut.reserve_agreement;
     if (cut.starts.empty()) return;  // one part needs no cut
     report.eigenvalues = cut.starts[static_cast<std::size_t>(cut.chosen)].eigenvalues;
 }

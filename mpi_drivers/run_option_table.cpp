@@ -276,11 +276,9 @@ void RunOptionTable::add_partition(CLI::App& app) {
         "Tal 2003), or held (what is far from the boundary is held by its part)",
         partition_group)
         ->check(CLI::IsMember({"none", "fuzzy", "held"}));
-    add_switch(
-        app, "reserve", options_.reserve,
-        "With --choose: cuts without adjacency, taken where they agree and the others leave parts out of "
-        "shapes",
-        partition_group);
+    add_switch(app, "articulated", options_.articulated,
+               "With --choose: cuts without adjacency among those tried, for shapes of many limbs",
+               partition_group);
 }
 
 std::vector<std::pair<std::string, std::string>> RunOptionTable::resolved() const {

@@ -63,7 +63,7 @@ struct RunOptions {
     bool segments = false;
     bool choose = true;
     std::string refine = "held";
-    bool reserve = true;
+    bool articulated = true;
 };
 
 /// The names of the presets, in the order of --help.

@@ -23,6 +23,7 @@ struct CutTerms {
     double adjacency_scale = 0.0;
     double overlap_scale = 0.0;
     std::vector<PatchRelation> neighbors;
+    std::vector<OverlapRelation> overlaps;
     SparseRows bonds;  ///< A' + O', complete: what a patch set aside follows
 };
 
@@ -65,10 +66,9 @@ CutTerms cut_terms(const Comm& comm, const Comm& self, bool one_rank, const CutI
     const BlockRange all{0, size};
     CutTerms terms;
     terms.neighbors = gather_relations(comm, input.neighbors_local, static_cast<int>(size));
-    const std::vector<OverlapRelation> overlaps =
-        gather_relations(comm, input.overlaps_local, static_cast<int>(size));
+    terms.overlaps = gather_relations(comm, input.overlaps_local, static_cast<int>(size));
     const SparseRows adjacency = adjacency_affinity(all, terms.neighbors, input.mesh_of);
-    const SparseRows overlap = overlap_affinity(all, overlaps, size);
+    const SparseRows overlap = overlap_affinity(all, terms.overlaps, size);
     terms.base = base_affinity(comm, input, options, terms.neighbors);
     const double base_total = total(comm, terms.base);
     const double reference = base_total > 0.0 ? base_total : static_cast<double>(size);
@@ -84,7 +84,7 @@ CutTerms cut_terms(const Comm& comm, const Comm& self, bool one_rank, const CutI
         terms.overlap = overlap;
     } else {
         terms.adjacency = adjacency_affinity(terms.base.rows, terms.neighbors, input.mesh_of);
-        terms.overlap = overlap_affinity(terms.base.rows, overlaps, size);
+        terms.overlap = overlap_affinity(terms.base.rows, terms.overlaps, size);
     }
     return terms;
 }
@@ -127,15 +127,19 @@ std::vector<int> start_clusters(const GraphCut& cut, int clusters, StartOutcome&
     return labels;
 }
 
-/// Terms and presence.
-void judge(const GraphCut& cut, const std::vector<int>& labels, int parts, StartOutcome& outcome) {
-    const Eigen::MatrixXd shares = area_shares(labels, parts, cut.input.patch_area, cut.input.mesh_of);
-    PartitionTerms& terms = outcome.terms;
+PartitionTerms terms_of(const GraphCut& cut, const std::vector<int>& labels, int parts) {
+    const CutInput& input = cut.input;
+    const Eigen::MatrixXd shares = area_shares(labels, parts, input.patch_area, input.mesh_of);
+    PartitionTerms terms;
     terms.association = normalized_association(cluster_links(cut.group, cut.scoring, labels, parts));
+    terms.crease = boundary_crease(cut.terms.neighbors, labels, static_cast<int>(shares.cols()));
+    terms.overlap = overlap_agreement(cut.terms.overlaps, labels, input.patch_area);
+    for (const ChoiceDescriptor& d : input.descriptors)
+        terms.explained.push_back(explained_share(d.histograms, labels, parts, input.patch_area));
     terms.concavity = boundary_concavity(cut.terms.neighbors, labels);
-    terms.entropy = entropy(mean_area_shares(labels, parts, cut.input.patch_area, cut.input.mesh_of));
-    terms.evenness = evenness(shares);
-    outcome.presence = presence(shares);
+    terms.presence = presence(shares);
+    terms.recall = match_recall(cut.group, cut.terms.base, labels, parts, input.patch_area);
+    return terms;
 }
 
 /// The part of each cluster of a start.
@@ -163,7 +167,7 @@ LabelledOutcome run_start(const GraphCut& cut, int index) {
     // Numbered alike, partitions that are the same have the same terms to the last bit.
     result.labels =
         canonical_labels(result.labels, cut.options.parts, cut.input.patch_area, cut.input.mesh_of);
-    judge(cut, result.labels, cut.options.parts, result.outcome);
+    result.outcome.terms = terms_of(cut, result.labels, cut.options.parts);
     return result;
 }
 
@@ -198,24 +202,43 @@ std::vector<LabelledOutcome> run_graph(const Comm& group, const CutInput& input,
     return outcomes;
 }
 
+void append_terms(const PartitionTerms& terms, std::vector<double>& values) {
+    values.insert(values.end(), {terms.association, terms.crease, terms.overlap, terms.concavity,
+                                 terms.presence, terms.recall});
+    values.insert(values.end(), terms.explained.begin(), terms.explained.end());
+}
+
+/// The inverse of append_terms; moves `value` on.
+PartitionTerms next_terms(std::vector<double>::const_iterator& value, std::size_t descriptors) {
+    PartitionTerms terms;
+    for (double* term : {&terms.association, &terms.crease, &terms.overlap, &terms.concavity, &terms.presence,
+                         &terms.recall}) {
+        *term = *value++;
+    }
+    const auto end = value + static_cast<std::ptrdiff_t>(descriptors);
+    terms.explained.assign(value, end);
+    value = end;
+    return terms;
+}
+
 /// Outcomes of all ranks on all ranks, in the order of starts. Collective.
 std::vector<LabelledOutcome> share_outcomes(const Comm& comm, const std::vector<LabelledOutcome>& local,
-                                            const CutOptions& options, std::size_t patches) {
+                                            const CutOptions& options, std::size_t patches,
+                                            std::size_t descriptors) {
     std::vector<int> numbers;
     std::vector<double> values;
     for (const LabelledOutcome& r : local) {
         numbers.insert(numbers.end(), {r.index, r.outcome.parts_found, r.outcome.set_aside,
                                        r.outcome.unreached, static_cast<int>(r.outcome.eigenvalues.size())});
         numbers.insert(numbers.end(), r.labels.begin(), r.labels.end());
-        values.insert(values.end(), {r.outcome.terms.association, r.outcome.terms.concavity,
-                                     r.outcome.terms.entropy, r.outcome.terms.evenness, r.outcome.presence});
+        append_terms(r.outcome.terms, values);
         values.insert(values.end(), r.outcome.eigenvalues.begin(), r.outcome.eigenvalues.end());
     }
     numbers = all_gather(comm, std::span<const int>(numbers));
     values = all_gather(comm, std::span<const double>(values));
     std::vector<LabelledOutcome> all(options.starts.size());
     auto number = numbers.begin();
-    auto value = values.begin();
+    auto value = values.cbegin();
     for (std::size_t k = 0; k < all.size(); ++k) {
         const int index = *number++;
         LabelledOutcome& r = all[static_cast<std::size_t>(index)];
@@ -227,9 +250,7 @@ std::vector<LabelledOutcome> share_outcomes(const Comm& comm, const std::vector<
         const int eigenvalues = *number++;
         r.labels.assign(number, number + static_cast<std::ptrdiff_t>(patches));
         number += static_cast<std::ptrdiff_t>(patches);
-        r.outcome.terms = {value[0], value[1], value[2], value[3]};
-        r.outcome.presence = value[4];
-        value += 5;
+        r.outcome.terms = next_terms(value, descriptors);
         r.outcome.eigenvalues.assign(value, value + eigenvalues);
         value += eigenvalues;
     }
@@ -250,7 +271,7 @@ std::vector<LabelledOutcome> run_dealt(const Comm& comm, const Comm& self, const
             }
         }
     });
-    return share_outcomes(comm, mine, options, input.mesh_of.size());
+    return share_outcomes(comm, mine, options, input.mesh_of.size(), input.descriptors.size());
 }
 
 /// One graph after the other, each cut by all ranks. Collective.
@@ -266,37 +287,24 @@ std::vector<LabelledOutcome> run_together(const Comm& comm, const CutInput& inpu
     return all;
 }
 
-/// The best of the first `scored` outcomes.
-std::size_t choose(std::vector<LabelledOutcome>& outcomes, std::size_t scored, const ChoiceWeights& weights) {
+/// The start to take; gives every outcome its score. Starts with fewer parts than others found are not eligible.
+std::size_t choose(std::vector<LabelledOutcome>& outcomes, const CutInput& input,
+                   const ChoiceWeights& weights) {
     std::vector<PartitionTerms> terms;
-    for (std::size_t k = 0; k < scored; ++k) terms.push_back(outcomes[k].outcome.terms);
-    const std::vector<double> scores = partition_scores(terms, weights);
-    std::size_t best = 0;
-    for (std::size_t k = 0; k < scored; ++k) {
-        outcomes[k].outcome.score = scores[k];
-        const auto rank = [&](std::size_t i) {
-            return std::pair(outcomes[i].outcome.parts_found, scores[i]);
-        };
-        if (rank(k) > rank(best)) best = k;
+    int most = 0;
+    for (const LabelledOutcome& r : outcomes) {
+        terms.push_back(r.outcome.terms);
+        most = std::max(most, r.outcome.parts_found);
     }
-    return best;
-}
-
-/// `best`, or the start of the reserve (outcomes from `first`) that takes its place.
-std::size_t take_reserve(const std::vector<LabelledOutcome>& outcomes, std::size_t first, std::size_t best,
-                         const CutInput& input, const ReserveRule& rule, double& mean_agreement) {
-    if (first == outcomes.size()) return best;
-    std::vector<std::vector<int>> partitions;
-    for (std::size_t k = first; k < outcomes.size(); ++k) partitions.push_back(outcomes[k].labels);
-    const std::vector<double> common = agreement(partitions, input.patch_area);
-    mean_agreement = std::accumulate(common.begin(), common.end(), 0.0) / static_cast<double>(common.size());
-    const std::size_t middle =
-        first + static_cast<std::size_t>(std::max_element(common.begin(), common.end()) - common.begin());
-    const StartOutcome& reserve = outcomes[middle].outcome;
-    const StartOutcome& standard = outcomes[best].outcome;
-    const bool is_sure =
-        mean_agreement >= rule.least_agreement && reserve.parts_found >= standard.parts_found;
-    return is_sure && reserve.presence >= standard.presence + rule.least_gain ? middle : best;
+    std::vector<double> descriptor_weights;
+    for (const ChoiceDescriptor& d : input.descriptors) descriptor_weights.push_back(d.weight);
+    const std::vector<double> scores = partition_scores(terms, weights, descriptor_weights);
+    std::vector<bool> eligible;
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+        outcomes[k].outcome.score = scores[k];
+        eligible.push_back(outcomes[k].outcome.parts_found == most);
+    }
+    return best_partition(terms, scores, eligible, weights);
 }
 
 std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::vector<int>& mesh_of,
@@ -375,18 +383,11 @@ CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const Cut
     const std::int64_t entries = 2 * all_sum(comm, static_cast<std::int64_t>(input.coefficients.rows.size()));
     const bool one_rank = entries <= options.one_rank_entries;
     const CutTerms terms = cut_terms(comm, self, one_rank, input, options);
-    CutOptions attempts = options;
-    attempts.starts.insert(attempts.starts.end(), options.reserve.begin(), options.reserve.end());
     std::vector<LabelledOutcome> outcomes =
-        one_rank ? run_dealt(comm, self, input, attempts, terms) : run_together(comm, input, attempts, terms);
-    const std::size_t best = choose(outcomes, options.starts.size(), options.choice);
-    result.chosen = static_cast<int>(take_reserve(outcomes, options.starts.size(), best, input,
-                                                  options.reserve_rule, result.reserve_agreement));
+        one_rank ? run_dealt(comm, self, input, options, terms) : run_together(comm, input, options, terms);
+    result.chosen = static_cast<int>(choose(outcomes, input, options.choice));
     result.part_of_patch = outcomes[static_cast<std::size_t>(result.chosen)].labels;
-    for (LabelledOutcome& r : outcomes) {
-        r.outcome.in_reserve = result.starts.size() >= options.starts.size();
-        result.starts.push_back(std::move(r.outcome));
-    }
+    for (LabelledOutcome& r : outcomes) result.starts.push_back(std::move(r.outcome));
     describe_parts(input.mesh_of, input.patch_area, options.parts, result);
     return result;
 }

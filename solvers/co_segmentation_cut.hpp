@@ -53,27 +53,19 @@ struct CutInput {
     const std::vector<OverlapRelation>& overlaps_local;  ///< likewise; none with one over-segmentation a mesh
     const std::vector<int>& mesh_of;        ///< mesh 0 .. M-1 of all patches, the same on all ranks
     const std::vector<double>& patch_area;  ///< of all patches, the same on all ranks
-};
-
-/// When the reserve is taken: its starts agree with each other, and the parts they find are in more of the shapes than
-/// those of the start with the best score, which is what many limbs look like. That start of the reserve is taken
-/// which agrees most with the others (ties: the first).
-struct ReserveRule {
-    double least_agreement = 0.95;  ///< mean over the reserve of agreement()
-    double least_gain = 0.05;       ///< of presence()
+    /// What the choice among several starts looks at, the same on all ranks; none where there is one start.
+    std::vector<ChoiceDescriptor> descriptors = {};
 };
 
 struct CutOptions {
     int parts = 2;  ///< K, 1 .. number of patches
     AffinityForm form = AffinityForm::links;
-    bool minima_rule = true;        ///< on the base, as the paper prints it
-    double drop_below = 0.0;        ///< entries of S below are dropped; the paper's code: 1e-6
-    SpectralOptions spectral;       ///< the paper's code: offset 0.5
-    std::vector<CutStart> starts;   ///< at least one
-    std::vector<CutStart> reserve;  ///< none, or starts that are taken only as take_reserve says
-    double score_weight = 1.5;      ///< adjacency and overlap of the graph that scores
+    bool minima_rule = true;       ///< on the base, as the paper prints it
+    double drop_below = 0.0;       ///< entries of S below are dropped; the paper's code: 1e-6
+    SpectralOptions spectral;      ///< the paper's code: offset 0.5
+    std::vector<CutStart> starts;  ///< at least one
+    double score_weight = 1.5;     ///< adjacency and overlap of the graph that scores
     ChoiceWeights choice;
-    ReserveRule reserve_rule;
     /// Up to so many entries of the base affinity a start is one rank's work, which takes about 100 bytes an entry.
     std::int64_t one_rank_entries = 60'000'000;
 };
@@ -82,9 +74,7 @@ struct CutOptions {
 struct StartOutcome {
     CutStart start;
     PartitionTerms terms;
-    double presence = 0.0;  ///< see partition_choice.hpp
-    double score = 0.0;     ///< 0 for the reserve, which is not scored
-    bool in_reserve = false;
+    double score = 0.0;   ///< see partition_scores
     int parts_found = 0;  ///< parts with a patch; fewer than asked for where clusters came out empty
     int set_aside = 0;    ///< patches that took no part in the cut and followed their neighbours
     int unreached = 0;    ///< of these: without any labelled neighbour, given to the largest cluster
@@ -95,11 +85,8 @@ struct CutResult {
     std::vector<int> part_of_patch;  ///< 0 .. parts - 1, by decreasing mean area share; the same on all ranks
     std::vector<double> part_share;  ///< mean over meshes of the part's share of area
     std::vector<int> meshes_with_part;  ///< in how many meshes the part occurs; few is a warning sign
-    std::vector<StartOutcome> starts;   ///< in the order of CutOptions::starts, then of the reserve
-    int chosen =
-        0;  ///< the start taken: the best score among those with the most parts, ties: the first; or of the
-            ///< reserve
-    double reserve_agreement = 0.0;  ///< of the reserve's starts with each other; 0 without a reserve
+    std::vector<StartOutcome> starts;   ///< in the order of CutOptions::starts
+    int chosen = 0;                     ///< the start taken: best_partition of those with the most parts
 };
 
 /// A partition that was found in another way, numbered and described as co_segmentation_cut does; without starts.
@@ -116,7 +103,7 @@ CutResult described_partition(const std::vector<int>& labels, int parts, const s
 ///
 /// Collective. Throws AgreedError: usage (parts out of range), input (nothing to cut), not_converged,
 /// internal. Source: the paper, equation (8), minima rule and normalised cut; Deviates: `links`, adjacency,
-/// overlaps, balance of meshes, several starts, their choice and the reserve.
+/// overlaps, balance of meshes, several starts and their choice.
 CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const CutOptions& options);
 
 }  // namespace coseg

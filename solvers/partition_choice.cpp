@@ -3,29 +3,90 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include "solvers/cluster_merging.hpp"
-#include "src/rand_index.hpp"
 
 namespace coseg {
 
 namespace {
 
-/// Adds weight * (term - mean) / deviation to each score.
-void add_standardised(std::span<const PartitionTerms> partitions, double PartitionTerms::*term, double weight,
+struct Spread {
+    double mean = 0.0;
+    double deviation = 0.0;
+};
+
+Spread spread_of(std::span<const double> values) {
+    const auto count = static_cast<double>(values.size());
+    Spread spread;
+    for (const double value : values) spread.mean += value;
+    spread.mean /= count;
+    for (const double value : values) spread.deviation += (value - spread.mean) * (value - spread.mean);
+    spread.deviation = std::sqrt(spread.deviation / count);
+    return spread;
+}
+
+/// Adds weight * (value - mean) / deviation to each score; a deviation of at least `least` is taken.
+void add_standardised(std::span<const double> values, double weight, double least,
                       std::vector<double>& scores) {
-    const auto count = static_cast<double>(partitions.size());
-    double sum = 0.0;
-    for (const PartitionTerms& p : partitions) sum += p.*term;
-    const double mean = sum / count;
-    double squares = 0.0;
-    for (const PartitionTerms& p : partitions) squares += (p.*term - mean) * (p.*term - mean);
-    const double deviation = std::sqrt(squares / count);
+    const Spread spread = spread_of(values);
     // Partitions that agree but for rounding have no say: a deviation of 1e-15 would turn noise into a score.
-    if (deviation <= 1e-12 * std::max(1.0, std::abs(mean))) return;
+    const double rounding = 1e-12 * std::max(1.0, std::abs(spread.mean));
+    const double deviation = std::max(spread.deviation, least);
+    if (deviation <= rounding) return;
     for (std::size_t k = 0; k < scores.size(); ++k)
-        scores[k] += weight * ((partitions[k].*term - mean) / deviation);
+        scores[k] += weight * ((values[k] - spread.mean) / deviation);
+}
+
+template <class Term>
+std::vector<double> values_of(std::span<const PartitionTerms> partitions, Term term) {
+    std::vector<double> values;
+    for (const PartitionTerms& p : partitions) values.push_back(term(p));
+    return values;
+}
+
+double median_of(std::span<const double> values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t half = sorted.size() / 2;
+    return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+}
+
+/// Partitions of those that are eligible whose scores come within `margin` of the best; in ascending order.
+std::vector<std::size_t> short_list(std::span<const double> scores, const std::vector<bool>& eligible,
+                                    double margin) {
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < scores.size(); ++k) {
+        if (eligible[k]) best = std::max(best, scores[k]);
+    }
+    const double least = best - margin * std::max(0.0, best - median_of(scores));
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < scores.size(); ++k) {
+        if (eligible[k] && scores[k] >= least) list.push_back(k);
+    }
+    return list;
+}
+
+/// Share of the deviation over all partitions below which differences inside the short list are not magnified.
+constexpr double least_share = 0.15;
+
+/// Whether the links of each row of this rank weigh more on the row's own part than on any other.
+std::vector<int> rows_matched(const SparseRows& links, const std::vector<int>& labels, int parts) {
+    std::vector<int> matched;
+    std::vector<double> weight(static_cast<std::size_t>(parts));
+    for (std::size_t r = 0; r < static_cast<std::size_t>(links.local_rows()); ++r) {
+        std::fill(weight.begin(), weight.end(), 0.0);
+        for (auto k = static_cast<std::size_t>(links.offsets[r]);
+             k < static_cast<std::size_t>(links.offsets[r + 1]); ++k) {
+            const int part = labels[static_cast<std::size_t>(links.columns[k])];
+            weight[static_cast<std::size_t>(part)] += links.values[k];
+        }
+        const auto heaviest = std::max_element(weight.begin(), weight.end()) - weight.begin();
+        const int own = labels[static_cast<std::size_t>(links.rows.begin) + r];
+        matched.push_back(heaviest == own ? 1 : 0);
+    }
+    return matched;
 }
 
 }  // namespace
@@ -53,23 +114,6 @@ std::vector<double> mean_area_shares(const std::vector<int>& labels, int parts,
     return shares;
 }
 
-double entropy(std::span<const double> shares) {
-    double sum = 0.0;
-    for (const double share : shares) {
-        if (share > 0.0) sum -= share * std::log(share);
-    }
-    return sum;
-}
-
-double evenness(const Eigen::MatrixXd& shares) {
-    const auto entropy_of = [](const Eigen::VectorXd& column) {
-        return entropy({column.data(), static_cast<std::size_t>(column.size())});
-    };
-    double inside = 0.0;
-    for (Eigen::Index m = 0; m < shares.cols(); ++m) inside += entropy_of(shares.col(m));
-    return inside / static_cast<double>(shares.cols()) - entropy_of(shares.rowwise().mean());
-}
-
 double presence(const Eigen::MatrixXd& shares) {
     constexpr double least = 0.25;
     std::int64_t present = 0;
@@ -82,30 +126,108 @@ double presence(const Eigen::MatrixXd& shares) {
     return static_cast<double>(present) / static_cast<double>(shares.size());
 }
 
-std::vector<double> agreement(const std::vector<std::vector<int>>& partitions,
-                              const std::vector<double>& patch_area) {
-    const std::size_t count = partitions.size();
-    if (count == 1) return {1.0};
-    std::vector<double> mean(count, 0.0);
-    for (std::size_t a = 0; a < count; ++a) {
-        for (std::size_t b = a + 1; b < count; ++b) {
-            const double common = adjusted_rand_index(partitions[a], partitions[b], patch_area);
-            mean[a] += common / static_cast<double>(count - 1);
-            mean[b] += common / static_cast<double>(count - 1);
-        }
+double boundary_crease(const std::vector<PatchRelation>& neighbors, const std::vector<int>& labels,
+                       int meshes) {
+    double cost = 0.0;
+    for (const PatchRelation& pair : neighbors) {
+        if (labels[static_cast<std::size_t>(pair.patch_a)] == labels[static_cast<std::size_t>(pair.patch_b)])
+            continue;
+        const double flat = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
+        cost += pair.boundary_length * flat * flat;
     }
-    return mean;
+    return -cost / static_cast<double>(meshes);
 }
 
-std::vector<double> partition_scores(std::span<const PartitionTerms> partitions,
-                                     const ChoiceWeights& weights) {
+double overlap_agreement(const std::vector<OverlapRelation>& overlaps, const std::vector<int>& labels,
+                         const std::vector<double>& patch_area) {
+    std::vector<double> all(labels.size(), 0.0);
+    std::vector<double> own(labels.size(), 0.0);
+    for (const OverlapRelation& pair : overlaps) {
+        const auto a = static_cast<std::size_t>(pair.patch_a);
+        const auto b = static_cast<std::size_t>(pair.patch_b);
+        for (const std::size_t i : {a, b}) {
+            all[i] += pair.intersection_over_union;
+            if (labels[a] == labels[b]) own[i] += pair.intersection_over_union;
+        }
+    }
+    double agreed = 0.0;
+    double area = 0.0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (all[i] <= 0.0) continue;
+        agreed += patch_area[i] * (own[i] / all[i]);
+        area += patch_area[i];
+    }
+    return area > 0.0 ? agreed / area : 1.0;
+}
+
+double match_recall(const Comm& comm, const SparseRows& links, const std::vector<int>& labels, int parts,
+                    const std::vector<double>& patch_area) {
+    std::vector<int> matched = rows_matched(links, labels, parts);
+    if (comm.size() > 1) matched = all_gather(comm, std::span<const int>(matched));
+    std::vector<double> area(static_cast<std::size_t>(parts), 0.0);
+    std::vector<double> found(static_cast<std::size_t>(parts), 0.0);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        area[static_cast<std::size_t>(labels[i])] += patch_area[i];
+        if (matched[i] == 1) found[static_cast<std::size_t>(labels[i])] += patch_area[i];
+    }
+    double sum = 0.0;
+    for (std::size_t p = 0; p < area.size(); ++p) sum += area[p] > 0.0 ? found[p] / area[p] : 0.0;
+    return sum / static_cast<double>(parts);
+}
+
+double explained_share(const Eigen::Ref<const Eigen::MatrixXd>& histograms, const std::vector<int>& labels,
+                       int parts, const std::vector<double>& patch_area) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(histograms.rows(), parts);
+    std::vector<double> area(static_cast<std::size_t>(parts), 0.0);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const auto column = static_cast<Eigen::Index>(i);
+        sums.col(labels[i]) += patch_area[i] * histograms.col(column);
+        area[static_cast<std::size_t>(labels[i])] += patch_area[i];
+        squares += patch_area[i] * histograms.col(column).squaredNorm();
+    }
+    const double whole = std::accumulate(area.begin(), area.end(), 0.0);
+    if (whole <= 0.0) return 0.0;
+    const double of_mean = sums.rowwise().sum().squaredNorm() / whole;
+    double between = -of_mean;
+    for (int p = 0; p < parts; ++p) {
+        const double a = area[static_cast<std::size_t>(p)];
+        if (a > 0.0) between += sums.col(p).squaredNorm() / a;
+    }
+    const double spread = squares - of_mean;
+    return spread > 1e-12 * squares ? std::clamp(between / spread, 0.0, 1.0) : 0.0;
+}
+
+std::vector<double> partition_scores(std::span<const PartitionTerms> partitions, const ChoiceWeights& weights,
+                                     std::span<const double> descriptor_weights) {
     std::vector<double> scores(partitions.size(), 0.0);
     if (partitions.empty()) return scores;
-    add_standardised(partitions, &PartitionTerms::association, weights.association, scores);
-    add_standardised(partitions, &PartitionTerms::concavity, weights.concavity, scores);
-    add_standardised(partitions, &PartitionTerms::entropy, weights.entropy, scores);
-    add_standardised(partitions, &PartitionTerms::evenness, weights.evenness, scores);
+    const auto add = [&](double weight, const auto& term) {
+        add_standardised(values_of(partitions, term), weight, 0.0, scores);
+    };
+    add(weights.association, [](const PartitionTerms& p) { return p.association; });
+    add(weights.crease, [](const PartitionTerms& p) { return p.crease; });
+    add(weights.overlap, [](const PartitionTerms& p) { return p.overlap; });
+    for (std::size_t h = 0; h < descriptor_weights.size(); ++h)
+        add(descriptor_weights[h], [h](const PartitionTerms& p) { return p.explained[h]; });
     return scores;
+}
+
+std::size_t best_partition(std::span<const PartitionTerms> partitions, std::span<const double> scores,
+                           const std::vector<bool>& eligible, const ChoiceWeights& weights) {
+    const std::vector<std::size_t> list = short_list(scores, eligible, weights.margin);
+    std::vector<double> merit;
+    for (const std::size_t k : list) merit.push_back(weights.score * scores[k]);
+    const auto add = [&](double weight, const auto& term) {
+        const std::vector<double> all = values_of(partitions, term);
+        std::vector<double> listed;
+        for (const std::size_t k : list) listed.push_back(all[k]);
+        add_standardised(listed, weight, least_share * spread_of(all).deviation, merit);
+    };
+    add(weights.concavity, [](const PartitionTerms& p) { return p.concavity; });
+    add(weights.presence, [](const PartitionTerms& p) { return p.presence; });
+    add(weights.recall, [](const PartitionTerms& p) { return p.recall; });
+    return list[static_cast<std::size_t>(std::max_element(merit.begin(), merit.end()) - merit.begin())];
 }
 
 std::vector<int> canonical_labels(const std::vector<int>& labels, int parts,

@@ -20,35 +20,60 @@ TEST(PartitionChoice, SharesAreMeansOverMeshesOfAnySize) {
     EXPECT_DOUBLE_EQ(shares[1], 0.5 * (0.75 + 0.5));
 }
 
-TEST(PartitionChoice, EntropyOfEvenSharesIsTheLogarithm) {
-    EXPECT_NEAR(entropy(std::vector<double>{0.25, 0.25, 0.25, 0.25}), std::log(4.0), 1e-15);
-    EXPECT_EQ(entropy(std::vector<double>{1.0, 0.0}), 0.0);
+PartitionTerms terms_with(double association, double crease = 0.0, double overlap = 0.0) {
+    PartitionTerms terms;
+    terms.association = association;
+    terms.crease = crease;
+    terms.overlap = overlap;
+    return terms;
 }
 
 TEST(PartitionChoice, ScoresAreStandardisedTermByTerm) {
-    const std::vector<PartitionTerms> terms = {{1.0, 0.2, 5.0}, {3.0, 0.2, 5.0}};
-    const std::vector<double> scores = partition_scores(terms, {2.0, 10.0, 10.0});
+    const std::vector<PartitionTerms> terms = {terms_with(1.0, 0.2, 5.0), terms_with(3.0, 0.2, 5.0)};
+    const std::vector<double> scores =
+        partition_scores(terms, {.association = 2.0, .crease = 10.0, .overlap = 10.0}, {});
     EXPECT_NEAR(scores[0], -2.0,
                 1e-14);  // one deviation below the mean, times 2; what does not vary has no say
     EXPECT_NEAR(scores[1], 2.0, 1e-14);
 }
 
 TEST(PartitionChoice, ScoresDoNotDependOnTheUnitOfATerm) {
-    const std::vector<PartitionTerms> terms = {{1.0, 0.2, 1.5}, {3.0, 0.9, 1.0}, {2.5, 0.4, 1.2}};
+    std::vector<PartitionTerms> terms = {terms_with(1.0, 0.2, 1.5), terms_with(3.0, 0.9, 1.0),
+                                         terms_with(2.5, 0.4, 1.2)};
+    for (std::size_t k = 0; k < 3; ++k) terms[k].explained = {0.1 + 0.2 * static_cast<double>(k * k)};
     std::vector<PartitionTerms> scaled = terms;
     for (PartitionTerms& t : scaled) {
         t.association = 1e3 * t.association + 7.0;
-        t.concavity *= 1e-6;
+        t.crease *= 1e-6;
+        t.explained[0] *= 1e-3;
     }
-    const std::vector<double> a = partition_scores(terms, {});
-    const std::vector<double> b = partition_scores(scaled, {});
+    const std::vector<double> weights = {2.0};
+    const std::vector<double> a = partition_scores(terms, {}, weights);
+    const std::vector<double> b = partition_scores(scaled, {}, weights);
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-9);
     EXPECT_NEAR(a[0] + a[1] + a[2], 0.0, 1e-12);
+    EXPECT_GT(a[2] - partition_scores(terms, {}, {})[2], 2.0) << "the descriptor speaks for the third";
 }
 
 TEST(PartitionChoice, RoundingIsNoDifference) {
-    const std::vector<PartitionTerms> terms = {{2.0, 0.0, 0.0}, {2.0 + 4e-16, 0.0, 0.0}, {2.0, 0.0, 0.0}};
-    EXPECT_EQ(partition_scores(terms, {}), std::vector<double>(3, 0.0));
+    const std::vector<PartitionTerms> terms = {terms_with(2.0), terms_with(2.0 + 4e-16), terms_with(2.0)};
+    EXPECT_EQ(partition_scores(terms, {}, {}), std::vector<double>(3, 0.0));
+}
+
+TEST(PartitionChoice, TheShortListIsDecidedByConcavityPresenceAndRecall) {
+    std::vector<PartitionTerms> terms(5);
+    const std::vector<double> scores = {3.0, 2.5, 1.0, 9.0, 0.5};  // median 2.5
+    terms[1].concavity = 0.1;
+    terms[2].concavity = 0.9;
+    const std::vector<bool> eligible = {true, true, true, false, true};
+    EXPECT_EQ(best_partition(terms, scores, eligible, {}), 0U)
+        << "the margin is .45 of .5; 3 is not eligible";
+    EXPECT_EQ(best_partition(terms, scores, eligible, {.margin = 1.0}), 1U) << "2 is beyond the margin";
+    EXPECT_EQ(best_partition(terms, scores, eligible, {.margin = 4.5}), 2U);
+    EXPECT_EQ(best_partition(terms, std::vector<double>(5, 0.0), {false, true, true, true, true},
+                             {.concavity = 0.0}),
+              1U)
+        << "ties: the first";
 }
 
 TEST(PartitionChoice, PartsAreNumberedByShareThenByLowestPatch) {
@@ -61,13 +86,6 @@ TEST(PartitionChoice, PartsAreNumberedByShareThenByLowestPatch) {
               (std::vector<int>{0, 1, 1, 2, 0}));
 }
 
-TEST(PartitionChoice, EvennessIsZeroForEqualProportionsAndLeastForPartsThatAreWholeMeshes) {
-    Eigen::MatrixXd even(2, 3);
-    even << 0.3, 0.3, 0.3, 0.7, 0.7, 0.7;
-    EXPECT_NEAR(evenness(even), 0.0, 1e-15);
-    EXPECT_NEAR(evenness(Eigen::MatrixXd::Identity(4, 4)), -std::log(4.0), 1e-15);
-}
-
 TEST(PartitionChoice, PresenceCountsMeshesWithAQuarterOfThePartsMean) {
     Eigen::MatrixXd shares(3, 4);
     shares << 0.5, 0.4, 0.02, 0.0,  //
@@ -76,13 +94,41 @@ TEST(PartitionChoice, PresenceCountsMeshesWithAQuarterOfThePartsMean) {
     EXPECT_DOUBLE_EQ(presence(shares), 6.0 / 12.0);
 }
 
-TEST(PartitionChoice, AgreementIsTheMeanWithTheOthers) {
-    const std::vector<std::vector<int>> partitions = {{0, 0, 1, 1}, {1, 1, 0, 0}, {0, 1, 0, 1}};
-    const std::vector<double> mean = agreement(partitions, {1.0, 1.0, 1.0, 1.0});
-    EXPECT_NEAR(mean[0], 0.5, 1e-15);
-    EXPECT_NEAR(mean[1], 0.5, 1e-15);
-    EXPECT_NEAR(mean[2], 0.0, 1e-15);
-    EXPECT_EQ(agreement({{0, 1}}, {1.0, 1.0}), std::vector<double>{1.0});
+TEST(PartitionChoice, CreaseIsLengthAndFlatnessOfBoundariesAMesh) {
+    const std::vector<PatchRelation> neighbors = {{0, 1, 3.0, 0.5}, {1, 2, 1.0, 1.0}, {2, 3, 5.0, 0.0}};
+    EXPECT_DOUBLE_EQ(boundary_crease(neighbors, {0, 1, 2, 2}, 2), -3.0 * 0.25 / 2.0);
+    EXPECT_DOUBLE_EQ(boundary_crease(neighbors, {0, 0, 0, 1}, 1), -5.0);
+    EXPECT_EQ(boundary_crease(neighbors, {0, 0, 0, 0}, 1), 0.0);
+}
+
+TEST(PartitionChoice, OverlapAgreementIsTheShareOfTheOwnPartByArea) {
+    const std::vector<OverlapRelation> overlaps = {{0, 2, 0.6}, {0, 3, 0.2}, {1, 3, 0.8}};
+    // 0: .6 of .8 with its own part; 1: none; 2: all; 3: .2 of 1; 4 overlaps nothing
+    EXPECT_NEAR(overlap_agreement(overlaps, {0, 1, 0, 2, 2}, {1.0, 2.0, 1.0, 2.0, 50.0}),
+                (0.75 + 0.0 + 1.0 + 0.0) / 6.0, 1e-15);
+    EXPECT_EQ(overlap_agreement({}, {0, 1}, {1.0, 1.0}), 1.0);
+}
+
+TEST(PartitionChoice, ExplainedShareIsOneForPartsThatAreAlikeInsideAndZeroForPartsWithOneMean) {
+    Eigen::MatrixXd histograms(2, 4);
+    histograms << 1, 1, 0, 0, 0, 0, 1, 1;
+    const std::vector<double> area = {1.0, 2.0, 3.0, 4.0};
+    EXPECT_NEAR(explained_share(histograms, {0, 0, 1, 1}, 2, area), 1.0, 1e-15);
+    EXPECT_NEAR(explained_share(histograms, {0, 1, 0, 1}, 2, {1.0, 1.0, 1.0, 1.0}), 0.0, 1e-15);
+    EXPECT_EQ(explained_share(Eigen::MatrixXd::Ones(2, 4), {0, 1, 0, 1}, 2, area), 0.0);
+}
+
+TEST(PartitionChoice, ExplainedShareIsThatOfTheAnalysisOfVariance) {
+    Eigen::MatrixXd values(1, 5);
+    values << 1, 2, 4, 7, 11;
+    const std::vector<int> labels = {0, 0, 1, 1, 1};
+    const double mean = 5.0;
+    const double first = 1.5;
+    const double second = 22.0 / 3.0;
+    double spread = 0.0;
+    for (Eigen::Index i = 0; i < 5; ++i) spread += (values(0, i) - mean) * (values(0, i) - mean);
+    const double between = 2.0 * (first - mean) * (first - mean) + 3.0 * (second - mean) * (second - mean);
+    EXPECT_NEAR(explained_share(values, labels, 2, std::vector<double>(5, 1.0)), between / spread, 1e-14);
 }
 
 }  // namespace

@@ -44,6 +44,11 @@ END
 bench "${both[@]:0:2}" --sets tables_1 --seeds 1 2 >"$work/third"
 [[ $(wc -l <"$work/third") -eq 1 ]] || fail "resumed: $(cat "$work/third")"
 
+# generated collections
+bench --generated 2 table goblet --seeds 1 --presets "default $quick" --out "$work/made.json" --table "$work/made.md" >"$work/log"
+grep -q "^| generated_goblet | 3 |" "$work/made.md" || fail "generated collections: $(cat "$work/made.md")"
+refuses "an unknown family" 1 "no family spoon" bench --generated 2 spoon
+
 # the Princeton layout: cups (21..40) whose annotators are the truth, and one who saw a single segment
 "$COSEG" generate cup --count 2 --seed 1 --faces 2000 --out "$work/cups" >"$work/log"
 mkdir -p "$work/princeton/off"
