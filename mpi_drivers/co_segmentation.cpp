@@ -160,7 +160,9 @@ struct Partitioned {
 /// In a large collection they are most of the memory, which the cut needs for its graphs.
 void release_histograms(PatchFeatures& features, const RunOptions& options) {
     const bool still_wanted = options.partition == "diffusion" || options.segments;
-    if (!still_wanted) features.histograms.clear();
+    if (still_wanted) return;
+    features.choice = choice_descriptors(features, options);
+    features.histograms.clear();
 }
 
 Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures& features,

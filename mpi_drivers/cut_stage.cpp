@@ -56,19 +56,23 @@ CutOptions cut_options(const RunOptions& options) {
     return cut;
 }
 
-/// The descriptors that tell parts from each other in all of the labelled and generated collections; weights fitted on
-/// them, each left out in turn (docs/method.md).
-std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features) {
+}  // namespace
+
+std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, const RunOptions& options) {
     std::vector<ChoiceDescriptor> descriptors;
+    if (!options.choose) return descriptors;
+    // Those that tell parts from each other in all of the labelled and generated collections; weights fitted on them,
+    // each left out in turn (docs/method.md).
     for (std::size_t h = 0; h < features.histograms.size(); ++h) {
         const auto feature = static_cast<Feature>(features.feature_of[h]);
-        if (feature == Feature::gaussian_curvature) descriptors.push_back({features.histograms[h], 1.0});
-        if (feature == Feature::shape_diameter) descriptors.push_back({features.histograms[h], 2.1});
+        const auto add = [&](double weight) {
+            descriptors.push_back({features.histograms[h].cast<float>(), weight});
+        };
+        if (feature == Feature::gaussian_curvature) add(1.0);
+        if (feature == Feature::shape_diameter) add(2.1);
     }
     return descriptors;
 }
-
-}  // namespace
 
 CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                          const SparseCoefficients& coefficients, const RunOptions& options) {
@@ -80,9 +84,12 @@ CutResult cut_into_parts(const Comm& comm, const Collection& collection, const P
     }
     const std::vector<PatchRelation> neighbors = local_neighbors(collection);
     const std::vector<OverlapRelation> overlaps = local_overlaps(collection);
-    return co_segmentation_cut(
-        comm, {coefficients, neighbors, overlaps, mesh_of, features.patch_area, choice_descriptors(features)},
-        cut_options(options));
+    const std::vector<ChoiceDescriptor> made =
+        features.choice.empty() ? choice_descriptors(features, options) : std::vector<ChoiceDescriptor>{};
+    const std::vector<ChoiceDescriptor>& descriptors = features.choice.empty() ? made : features.choice;
+    return co_segmentation_cut(comm,
+                               {coefficients, neighbors, overlaps, mesh_of, features.patch_area, descriptors},
+                               cut_options(options));
 }
 
 }  // namespace coseg

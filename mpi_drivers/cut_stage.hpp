@@ -14,6 +14,10 @@ namespace coseg {
 std::vector<PatchRelation> local_neighbors(const Collection& collection);
 std::vector<OverlapRelation> local_overlaps(const Collection& collection);
 
+/// What the choice among several starts looks at, from the histograms; empty with a single start. Cuts find it in
+/// `features.choice`, or make it anew.
+std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, const RunOptions& options);
+
 /// Collective. K must not exceed the number of patches. Throws AgreedError(not_converged).
 CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                          const SparseCoefficients& coefficients, const RunOptions& options);

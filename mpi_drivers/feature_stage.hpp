@@ -7,6 +7,7 @@
 
 #include "mpi_drivers/mesh_stage.hpp"
 #include "mpi_drivers/run_options.hpp"
+#include "solvers/partition_choice.hpp"
 #include "src/comm.hpp"
 
 namespace coseg {
@@ -23,6 +24,8 @@ struct PatchFeatures {
         histograms;  ///< features with positive weight: bins x N each (shape contexts: bins word_sets x N), times the weight
     std::vector<int> feature_of;     ///< which Feature each of them is
     std::vector<double> patch_area;  ///< N, each mesh's over-segmentation sums to 1
+    /// What the choice of the partition looks at, where the histograms are gone before it; see choice_descriptors.
+    std::vector<ChoiceDescriptor> choice;
     std::vector<NamedRange> ranges;  ///< the bin range of every scalar feature, for the report
 };
 

@@ -16,7 +16,7 @@ namespace coseg {
 namespace {
 
 constexpr const char* cut_format = "coseg cut";
-constexpr int cut_version = 1;
+constexpr int cut_version = 2;
 
 /// These change where things are, what is said or what is drawn.
 constexpr std::array<const char*, 16> without_effect{"out",          "state",    "checkpoint-seconds",
@@ -111,27 +111,36 @@ ContentHash cut_key(const Comm& comm, const Collection& collection, const PatchF
     const std::vector<int> mesh_of = collection.numbering.mesh_of();
     hasher.add(std::span<const int>(mesh_of));
     hasher.add(std::span<const double>(features.patch_area));
+    for (const ChoiceDescriptor& d : features.choice) {
+        const auto entries = static_cast<std::size_t>(d.histograms.size());
+        hasher.add(std::span<const float>(d.histograms.data(), entries));
+    }
     return hasher.result();
 }
+
+constexpr std::size_t start_numbers = 11;
+constexpr std::size_t start_counts = 7;
 
 void write_starts(Hdf5Writer& file, const std::vector<StartOutcome>& starts) {
     std::vector<double> numbers;
     std::vector<std::int32_t> counts;
     std::vector<double> eigenvalues;
+    std::vector<double> explained;
     for (const StartOutcome& outcome : starts) {
         // One name for each field: a new one does not compile until it has been thought of here.
-        const auto& [start, terms, presence, score, in_reserve, parts_found, set_aside, unreached, values] =
-            outcome;
+        const auto& [start, terms, score, parts_found, set_aside, unreached, values] = outcome;
         const auto& [cut, clusters, merging, rule] = start;
-        const auto& [association, concavity, entropy, evenness] = terms;
+        const auto& [association, crease, overlap, shares, concavity, present, recall] = terms;
         numbers.insert(numbers.end(), {cut.adjacency, cut.overlap, merging.adjacency, merging.overlap,
-                                       association, concavity, entropy, evenness, presence, score});
-        counts.insert(counts.end(), {clusters, static_cast<int>(rule), in_reserve ? 1 : 0, parts_found,
-                                     set_aside, unreached, static_cast<int>(values.size())});
+                                       association, crease, overlap, concavity, present, recall, score});
+        counts.insert(counts.end(), {clusters, static_cast<int>(rule), parts_found, set_aside, unreached,
+                                     static_cast<int>(values.size()), static_cast<int>(shares.size())});
         eigenvalues.insert(eigenvalues.end(), values.begin(), values.end());
+        explained.insert(explained.end(), shares.begin(), shares.end());
     }
-    file.write("starts/numbers", numbers, {starts.size(), 10});
-    file.write("starts/counts", counts, {starts.size(), 7});
+    file.write("starts/numbers", numbers, {starts.size(), start_numbers});
+    file.write("starts/counts", counts, {starts.size(), start_counts});
+    file.write("starts/explained", explained);
     file.write("starts/eigenvalues", eigenvalues);
 }
 
@@ -139,21 +148,28 @@ std::vector<StartOutcome> read_starts(const Hdf5Reader& file) {
     const auto numbers = file.read<double>("starts/numbers");
     const auto counts = file.read<std::int32_t>("starts/counts");
     const auto eigenvalues = file.read<double>("starts/eigenvalues");
-    std::vector<StartOutcome> starts(counts.size() / 7);
+    const auto explained = file.read<double>("starts/explained");
+    std::vector<StartOutcome> starts(counts.size() / start_counts);
     auto value = eigenvalues.begin();
+    auto share = explained.begin();
     for (std::size_t k = 0; k < starts.size(); ++k) {
-        const double* n = numbers.data() + 10 * k;
-        const std::int32_t* c = counts.data() + 7 * k;
+        const double* n = numbers.data() + start_numbers * k;
+        const std::int32_t* c = counts.data() + start_counts * k;
         starts[k] = {.start = {{n[0], n[1]}, c[0], {n[2], n[3]}, static_cast<MergeRule>(c[1])},
-                     .terms = {n[4], n[5], n[6], n[7]},
-                     .presence = n[8],
-                     .score = n[9],
-                     .in_reserve = c[2] != 0,
-                     .parts_found = c[3],
-                     .set_aside = c[4],
-                     .unreached = c[5],
-                     .eigenvalues = {value, value + c[6]}};
-        value += c[6];
+                     .terms = {.association = n[4],
+                               .crease = n[5],
+                               .overlap = n[6],
+                               .explained = {share, share + c[6]},
+                               .concavity = n[7],
+                               .presence = n[8],
+                               .recall = n[9]},
+                     .score = n[10],
+                     .parts_found = c[2],
+                     .set_aside = c[3],
+                     .unreached = c[4],
+                     .eigenvalues = {value, value + c[5]}};
+        value += c[5];
+        share += c[6];
     }
     return starts;
 }
@@ -172,11 +188,10 @@ std::string cut_option_text(const std::vector<std::pair<std::string, std::string
 }
 
 void write_cut(const std::string& path, const CutResult& cut) {
-    const auto& [part_of_patch, part_share, meshes_with_part, starts, chosen, reserve_agreement] = cut;
+    const auto& [part_of_patch, part_share, meshes_with_part, starts, chosen] = cut;
     Hdf5Writer file(path, cut_format, cut_version);
     file.attribute("source_fingerprint", source_fingerprint());
     file.attribute("chosen", std::int64_t{chosen});
-    file.attribute("reserve_agreement", reserve_agreement);
     file.summary("cut, " + std::to_string(part_of_patch.size()) + " patches into " +
                  std::to_string(part_share.size()) + " parts, " + std::to_string(starts.size()) + " starts");
     file.write("part_of_patch", part_of_patch, {}, true);
@@ -192,8 +207,7 @@ CutResult read_cut(const std::string& path) {
             .part_share = file.read<double>("part_share"),
             .meshes_with_part = file.read<std::int32_t>("meshes_with_part"),
             .starts = read_starts(file),
-            .chosen = static_cast<int>(file.integer("chosen")),
-            .reserve_agreement = file.number("reserve_agreement")};
+            .chosen = static_cast<int>(file.integer("chosen"))};
 }
 
 CutResult CutJournal::cut(const Collection& collection, const PatchFeatures& features,

@@ -2,6 +2,7 @@
 // From coefficients to parts: affinity, cuts from several starts, and the choice among them.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solvers/cluster_merging.hpp"
@@ -54,7 +55,7 @@ struct CutInput {
     const std::vector<int>& mesh_of;        ///< mesh 0 .. M-1 of all patches, the same on all ranks
     const std::vector<double>& patch_area;  ///< of all patches, the same on all ranks
     /// What the choice among several starts looks at, the same on all ranks; none where there is one start.
-    std::vector<ChoiceDescriptor> descriptors = {};
+    std::span<const ChoiceDescriptor> descriptors = {};
 };
 
 struct CutOptions {

@@ -175,16 +175,16 @@ double match_recall(const Comm& comm, const SparseRows& links, const std::vector
     return sum / static_cast<double>(parts);
 }
 
-double explained_share(const Eigen::Ref<const Eigen::MatrixXd>& histograms, const std::vector<int>& labels,
-                       int parts, const std::vector<double>& patch_area) {
+double explained_share(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
+                       const std::vector<double>& patch_area) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(histograms.rows(), parts);
     std::vector<double> area(static_cast<std::size_t>(parts), 0.0);
     double squares = 0.0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const auto column = static_cast<Eigen::Index>(i);
-        sums.col(labels[i]) += patch_area[i] * histograms.col(column);
+        sums.col(labels[i]) += patch_area[i] * histograms.col(column).cast<double>();
         area[static_cast<std::size_t>(labels[i])] += patch_area[i];
-        squares += patch_area[i] * histograms.col(column).squaredNorm();
+        squares += patch_area[i] * histograms.col(column).cast<double>().squaredNorm();
     }
     const double whole = std::accumulate(area.begin(), area.end(), 0.0);
     if (whole <= 0.0) return 0.0;

@@ -39,8 +39,8 @@ struct ChoiceWeights {
 
 /// A descriptor whose histograms a good partition should explain.
 struct ChoiceDescriptor {
-    Eigen::Ref<const Eigen::MatrixXd> histograms;  ///< bins x N, column major, of any scale
-    double weight = 1.0;                           ///< of its explained share in the score
+    Eigen::MatrixXf histograms;  ///< bins x N, column major, of any scale
+    double weight = 1.0;         ///< of its explained share in the score
 };
 
 /// Length-weighted mean concavity over neighbours of different labels; 0 if no two neighbours differ.
@@ -72,9 +72,9 @@ double match_recall(const Comm& comm, const SparseRows& links, const std::vector
                     const std::vector<double>& patch_area);
 
 /// Which share of the spread of the patches' histograms lies between the parts: sum over parts of a |mean of the part -
-/// mean|^2 over sum over patches of a |x - mean|^2, a the patch's area. 0 where all patches are alike.
-double explained_share(const Eigen::Ref<const Eigen::MatrixXd>& histograms, const std::vector<int>& labels,
-                       int parts, const std::vector<double>& patch_area);
+/// mean|^2 over sum over patches of a |x - mean|^2, a the patch's area. 0 where all patches are alike. Sums in double.
+double explained_share(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
+                       const std::vector<double>& patch_area);
 
 /// Per partition the weighted sum of its terms of the score, each standardised over all partitions (mean 0, deviation 1; a
 /// term that does not vary counts 0). `descriptor_weights`: one for each of PartitionTerms::explained.

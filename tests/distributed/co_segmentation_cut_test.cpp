@@ -22,24 +22,24 @@ using testing_graphs::toy_collection;
 using testing_graphs::ToyCollection;
 
 /// A descriptor that tells the segments apart, with some noise.
-Eigen::MatrixXd histograms_of(const ToyCollection& toy) {
+Eigen::MatrixXf histograms_of(const ToyCollection& toy) {
     const int parts = 1 + *std::max_element(toy.truth.begin(), toy.truth.end());
-    Eigen::MatrixXd histograms(parts, toy.patches);
+    Eigen::MatrixXf histograms(parts, toy.patches);
     for (int i = 0; i < toy.patches; ++i) {
         for (int p = 0; p < parts; ++p) {
             const double noise =
-                uniform_of(hash_words({static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(p)}));
-            histograms(p, i) = (toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 : 0.0) + 0.3 * noise;
+                0.3 * uniform_of(hash_words({static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(p)}));
+            histograms(p, i) =
+                static_cast<float>(toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 + noise : noise);
         }
     }
     return histograms;
 }
 
 CutResult cut(const Comm& comm, const ToyCollection& toy, const CutOptions& options) {
-    const Eigen::MatrixXd histograms = histograms_of(toy);
+    const std::vector<ChoiceDescriptor> descriptors = {{histograms_of(toy), 1.0}};
     return co_segmentation_cut(
-        comm, {toy.coefficients, toy.neighbors, toy.overlaps, toy.mesh_of, toy.area, {{histograms, 1.0}}},
-        options);
+        comm, {toy.coefficients, toy.neighbors, toy.overlaps, toy.mesh_of, toy.area, descriptors}, options);
 }
 
 CutOptions pooled(int parts) {

@@ -15,24 +15,27 @@ TEST(KeptCut, ReturnsWhatWasWritten) {
     cut.meshes_with_part = {2, 2, 1};
     cut.starts.resize(2);
     cut.starts[0].start = {{1.0, 2.0}, 5, {4.0, 8.0}, MergeRule::normalized_cut};
-    cut.starts[0].terms = {0.9, 0.1, 1.0 / 3.0, -0.25};
-    cut.starts[0].presence = 0.75;
+    cut.starts[0].terms = {.association = 0.9,
+                           .crease = -0.1,
+                           .overlap = 1.0 / 3.0,
+                           .explained = {0.25, 0.125},
+                           .concavity = 0.6,
+                           .presence = 0.75,
+                           .recall = 0.8};
+    cut.starts[1].terms.explained = {0.5, 1.0 / 7.0};
     cut.starts[0].score = -1.5;
     cut.starts[0].eigenvalues = {1.0, 0.5};
-    cut.starts[1].in_reserve = true;
     cut.starts[1].parts_found = 3;
     cut.starts[1].set_aside = 4;
     cut.starts[1].unreached = 1;
     cut.starts[1].eigenvalues = {0.99};
     cut.chosen = 1;
-    cut.reserve_agreement = 0.97;
     write_cut(folder.path("cut.h5"), cut);
     const CutResult read = read_cut(folder.path("cut.h5"));
     EXPECT_EQ(read.part_of_patch, cut.part_of_patch);
     EXPECT_EQ(read.part_share, cut.part_share);
     EXPECT_EQ(read.meshes_with_part, cut.meshes_with_part);
     EXPECT_EQ(read.chosen, cut.chosen);
-    EXPECT_EQ(read.reserve_agreement, cut.reserve_agreement);
     ASSERT_EQ(read.starts.size(), cut.starts.size());
     for (std::size_t k = 0; k < cut.starts.size(); ++k) {
         const StartOutcome& a = read.starts[k];
@@ -43,11 +46,12 @@ TEST(KeptCut, ReturnsWhatWasWritten) {
         EXPECT_EQ(a.start.rule, b.start.rule);
         EXPECT_EQ(a.terms.association, b.terms.association);
         EXPECT_EQ(a.terms.concavity, b.terms.concavity);
-        EXPECT_EQ(a.terms.entropy, b.terms.entropy);
-        EXPECT_EQ(a.terms.evenness, b.terms.evenness);
-        EXPECT_EQ(a.presence, b.presence);
+        EXPECT_EQ(a.terms.crease, b.terms.crease);
+        EXPECT_EQ(a.terms.explained, b.terms.explained);
+        EXPECT_EQ(a.terms.overlap, b.terms.overlap);
+        EXPECT_EQ(a.terms.recall, b.terms.recall);
+        EXPECT_EQ(a.terms.presence, b.terms.presence);
         EXPECT_EQ(a.score, b.score);
-        EXPECT_EQ(a.in_reserve, b.in_reserve);
         EXPECT_EQ(a.parts_found, b.parts_found);
         EXPECT_EQ(a.set_aside, b.set_aside);
         EXPECT_EQ(a.unreached, b.unreached);

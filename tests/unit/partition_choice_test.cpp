@@ -110,16 +110,16 @@ TEST(PartitionChoice, OverlapAgreementIsTheShareOfTheOwnPartByArea) {
 }
 
 TEST(PartitionChoice, ExplainedShareIsOneForPartsThatAreAlikeInsideAndZeroForPartsWithOneMean) {
-    Eigen::MatrixXd histograms(2, 4);
+    Eigen::MatrixXf histograms(2, 4);
     histograms << 1, 1, 0, 0, 0, 0, 1, 1;
     const std::vector<double> area = {1.0, 2.0, 3.0, 4.0};
     EXPECT_NEAR(explained_share(histograms, {0, 0, 1, 1}, 2, area), 1.0, 1e-15);
     EXPECT_NEAR(explained_share(histograms, {0, 1, 0, 1}, 2, {1.0, 1.0, 1.0, 1.0}), 0.0, 1e-15);
-    EXPECT_EQ(explained_share(Eigen::MatrixXd::Ones(2, 4), {0, 1, 0, 1}, 2, area), 0.0);
+    EXPECT_EQ(explained_share(Eigen::MatrixXf::Ones(2, 4), {0, 1, 0, 1}, 2, area), 0.0);
 }
 
 TEST(PartitionChoice, ExplainedShareIsThatOfTheAnalysisOfVariance) {
-    Eigen::MatrixXd values(1, 5);
+    Eigen::MatrixXf values(1, 5);
     values << 1, 2, 4, 7, 11;
     const std::vector<int> labels = {0, 0, 1, 1, 1};
     const double mean = 5.0;
