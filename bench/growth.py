@@ -10,11 +10,14 @@ them:
     shapes   shapes of 3k faces, ten a rank on one rank and on --ranks, then ten to eighty on --ranks
     balance  shapes that differ 64-fold in size on --ranks: the share of the describe stage that ranks idle,
              1 - mean / max of the seconds that the ranks worked in it
+With --make FOLDER nothing is measured: --count such shapes of about --faces faces are left there, e.g. for speed.py:
+    bench/growth.py --coseg build/bin/coseg --make large --faces 50000 --count 4
 Figures are those of the runs' report.json. Nothing here is a test: times depend on what else the machine does.
 """
 import argparse
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -138,6 +141,17 @@ def balance_series(bench):
     return [{"at": len(files), **bench.run(files, bench.options.ranks)}]
 
 
+def make_meshes(bench, folder, count, faces):
+    """Quadrupeds that the generator makes as large as it can, and that are subdivided until they are large enough."""
+    rounds = 0
+    while faces // 4**rounds > LARGEST_GENERATED:
+        rounds += 1
+    folder.mkdir(parents=True, exist_ok=True)
+    for file in bench.refined(bench.generated("quadruped", count, faces // 4**rounds), rounds, "made"):
+        shutil.move(file, folder / file.name)  # another file system, perhaps
+
+
+LARGEST_GENERATED = 20000  # the largest --faces of coseg generate
 SERIES = {"faces": faces_series, "patches": patches_series, "shapes": shapes_series, "balance": balance_series}
 COLUMNS = ("at", "ranks", "shapes", "faces", "seconds_a_mesh", "describe", "idle", "rest", "mib_a_rank")
 
@@ -157,6 +171,9 @@ def main():
     parser.add_argument("--coseg", required=True, type=pathlib.Path)
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--largest", type=int, default=512000, help="faces of the largest shape in the series of faces")
+    parser.add_argument("--make", type=pathlib.Path, metavar="FOLDER", help="only make meshes there")
+    parser.add_argument("--faces", type=int, default=50000, help="faces of a mesh that is made")
+    parser.add_argument("--count", type=int, default=4, help="meshes that are made")
     parser.add_argument("--only", nargs="+", choices=SERIES, default=list(SERIES))
     parser.add_argument("--out", type=pathlib.Path, help="JSON")
     parser.add_argument("--table", type=pathlib.Path, help="Markdown; standard output without it")
@@ -164,6 +181,9 @@ def main():
     options.coseg = options.coseg.resolve()
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(options, pathlib.Path(scratch))
+        if options.make:
+            make_meshes(bench, options.make, options.count, options.faces)
+            return
         result = {"format": "coseg growth 1", "series": {name: SERIES[name](bench) for name in options.only}}
     if options.out:
         options.out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")

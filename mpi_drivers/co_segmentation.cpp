@@ -18,12 +18,14 @@
 #include "mpi_drivers/optimise_stage.hpp"
 #include "mpi_drivers/output_stage.hpp"
 #include "mpi_drivers/picture_stage.hpp"
+#include "mpi_drivers/profile.hpp"
 #include "mpi_drivers/report_stage.hpp"
 #include "mpi_drivers/run_state.hpp"
 #include "mpi_drivers/segment_stage.hpp"
 #include "mpi_drivers/solution_output.hpp"
 #include "mpi_drivers/subset_stage.hpp"
 #include "mpi_drivers/tile_journal.hpp"
+#include "solvers/petsc_log.hpp"
 #include "solvers/petsc_session.hpp"
 #include "src/error.hpp"
 #include "src/stage_log.hpp"
@@ -233,6 +235,10 @@ void co_segment(const Comm& comm, const RunOptions& options,
     refuse_balanced_paper(options);
     const PetscSession session(petsc_arguments);
     refuse_unused_petsc_options(comm, "-eps_");
+    if (options.profile) {
+        begin_petsc_log();
+        log.keep_trace();
+    }
     std::optional<RunState> state;
     if (!options.state.empty())
         state.emplace(comm, options.state, LockMode::exclusive, options.checkpoint_seconds);
@@ -285,6 +291,7 @@ void co_segment(const Comm& comm, const RunOptions& options,
         write_html_report(comm, {folder.staging(), {}, ""}, folder.staging(), {options.view, options.up});
         log.end(options.out + "/report.html");
     }
+    if (options.profile) write_profile(comm, folder.staging(), options, log);
     folder.commit(comm);
 }
 

@@ -16,9 +16,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 void add_reading_time(MeshDescription& description, Clock::time_point start) {
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - start).count();
     description.step_seconds[static_cast<std::size_t>(DescribeStep::read)] += seconds;
     description.seconds += seconds;
+    description.step_spans.push_back({DescribeStep::read, start, now});
 }
 
 /// Nothing if there is no file; a damaged one leaves a sentence in `warning`.

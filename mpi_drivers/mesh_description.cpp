@@ -46,6 +46,7 @@ class StepClock {
         const double seconds = std::chrono::duration<double>(now - last_).count();
         description_.step_seconds[static_cast<std::size_t>(step)] += seconds;
         description_.seconds += seconds;
+        description_.step_spans.push_back({step, last_, now});
         last_ = now;
     }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -60,6 +61,13 @@ struct DescriptionOptions {
 
 DescriptionOptions description_options(const RunOptions& options);
 
+/// A stretch of work on one step; a step may have several.
+struct StepSpan {
+    DescribeStep step = DescribeStep::read;
+    std::chrono::steady_clock::time_point start;
+    std::chrono::steady_clock::time_point end;
+};
+
 struct OverlapsOfPair {
     int oversegmentation_a = 0;  ///< a < b
     int oversegmentation_b = 0;
@@ -86,6 +94,7 @@ struct MeshDescription {
     bool reused = false;  ///< read from a state folder
     double seconds = 0.0;
     std::array<double, describe_step_total> step_seconds{};
+    std::vector<StepSpan> step_spans;  ///< ascending in time, disjoint
 };
 
 /// Repairs, over-segments and describes one mesh. bytes: the content of the file at `path`. Serial; a function of the

@@ -44,6 +44,16 @@ bool attempt_one(Attempt& attempt, int number, const MeshEntry& entry, const Des
     return true;
 }
 
+/// The mesh and its steps as spans of the stage; a mesh that failed has no steps.
+void trace_mesh(const Attempt& attempt, int number, const MeshEntry& entry, StageLog::Clock::time_point start,
+                StageLog& log) {
+    if (!attempt.described.empty() && attempt.described.back().mesh == number) {
+        for (const StepSpan& span : attempt.described.back().step_spans)
+            log.span(describe_step_names[static_cast<std::size_t>(span.step)], "step", span.start, span.end);
+    }
+    log.span(entry.name, "mesh", start, StageLog::Clock::now());
+}
+
 enum class Keep { all, nothing };
 
 void forget_content(MeshDescription& description) {
@@ -53,6 +63,7 @@ void forget_content(MeshDescription& description) {
     bare.warnings = std::move(description.warnings);
     bare.seconds = description.seconds;
     bare.step_seconds = description.step_seconds;
+    bare.step_spans = std::move(description.step_spans);
     description = std::move(bare);
 }
 
@@ -67,8 +78,10 @@ Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& en
     for (std::int64_t k = counter.next(); k < total; k = counter.next()) {
         log.progress(k, total);
         const int number = order[static_cast<std::size_t>(k)];
-        const bool goes_on =
-            attempt_one(attempt, number, entries[static_cast<std::size_t>(number)], description, folder);
+        const MeshEntry& entry = entries[static_cast<std::size_t>(number)];
+        const StageLog::Clock::time_point start = StageLog::Clock::now();
+        const bool goes_on = attempt_one(attempt, number, entry, description, folder);
+        trace_mesh(attempt, number, entry, start, log);
         if (goes_on && keep == Keep::nothing && !attempt.described.empty())
             forget_content(attempt.described.back());
         if (!goes_on || (state != nullptr && state->stop_is_raised())) counter.exhaust();

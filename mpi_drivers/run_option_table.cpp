@@ -141,6 +141,11 @@ void RunOptionTable::add_results(CLI::App& app) {
         ->required();
     add_switch(app, "force", options_.force, "Replace earlier results in a folder that is not empty",
                in_out_group);
+    add_switch(
+        app, "profile", options_.profile,
+        "Say where each rank's time went: a table of stages and PETSc's log (also DIR/profile.txt), and "
+        "DIR/trace.json for Perfetto or Chrome",
+        in_out_group);
 }
 
 void RunOptionTable::add_state(CLI::App& app, OptionSet set) {

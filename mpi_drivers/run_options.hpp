@@ -20,6 +20,7 @@ struct RunOptions {
     bool verbose = false;
     bool json_log = false;
     bool keep_features = false;
+    bool profile = false;
     std::uint64_t seed = 1;
     std::string state;
     double checkpoint_seconds = 60.0;

@@ -92,10 +92,26 @@ void StageLog::end_of_own_work() {
     own_seconds_ = std::chrono::duration<double>(Clock::now() - stage_start_).count();
 }
 
-void StageLog::step(const std::string& name, double seconds) { steps_.push_back({name, seconds}); }
+void StageLog::step(const std::string& name, double seconds) {
+    steps_.push_back({name, seconds, seconds, seconds});
+}
+
+void StageLog::keep_trace() {
+    MPI_Barrier(comm_.raw());
+    keeps_trace_ = true;
+    trace_start_ = Clock::now();
+}
+
+void StageLog::span(const std::string& name, const std::string& category, Clock::time_point start,
+                    Clock::time_point end) {
+    if (!keeps_trace_) return;
+    const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+    trace_.push_back({name, category, seconds(start - trace_start_), seconds(end - start)});
+}
 
 void StageLog::end(const std::string& summary) {
-    if (own_seconds_ < 0.0) end_of_own_work();
+    const bool has_waited = own_seconds_ >= 0.0;
+    if (!has_waited) end_of_own_work();
     StageTimes times;
     times.stage = stage_;
     times.seconds_min = all_min(comm_, own_seconds_);
@@ -103,10 +119,19 @@ void StageLog::end(const std::string& summary) {
     double total = 0.0;
     MPI_Allreduce(&own_seconds_, &total, 1, MPI_DOUBLE, MPI_SUM, comm_.raw());
     times.seconds_mean = total / comm_.size();
-    times.seconds_wall = std::chrono::duration<double>(Clock::now() - stage_start_).count();
+    const Clock::time_point now = Clock::now();
+    times.seconds_wall = std::chrono::duration<double>(now - stage_start_).count();
+    if (has_waited) {
+        const std::chrono::duration<double> own(own_seconds_);
+        span("waiting", "wait", stage_start_ + std::chrono::duration_cast<Clock::duration>(own), now);
+    }
+    span(stage_, "stage", stage_start_, now);
     times.steps = std::move(steps_);
-    for (StepTime& step : times.steps)
+    for (StepTime& step : times.steps) {
+        step.seconds_min = all_min(comm_, step.seconds);
+        step.seconds_max = all_max(comm_, step.seconds);
         MPI_Allreduce(MPI_IN_PLACE, &step.seconds, 1, MPI_DOUBLE, MPI_SUM, comm_.raw());
+    }
     stages_.push_back(times);
     if (!comm_.is_root() || verbosity_ == Verbosity::quiet) return;
     clear_bar();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/comm.hpp"
+#include "src/trace_event.hpp"
 
 namespace coseg {
 
@@ -14,7 +15,9 @@ enum class LogForm { text, json };
 
 struct StepTime {
     std::string step;
-    double seconds = 0.0;  ///< sum over ranks
+    double seconds = 0.0;      ///< sum over ranks
+    double seconds_min = 0.0;  ///< of the rank that spent least on it
+    double seconds_max = 0.0;
 };
 
 struct StageTimes {
@@ -29,6 +32,8 @@ struct StageTimes {
 /// Lines go to standard error, so that standard output holds results only.
 class StageLog {
   public:
+    using Clock = std::chrono::steady_clock;
+
     /// verbose: the steps of each stage under its line. json: one JSON object a line for every stage and warning, no bar.
     StageLog(const Comm& comm, Verbosity verbosity, LogForm form = LogForm::text);
 
@@ -45,6 +50,14 @@ class StageLog {
     /// steps in the same order before end().
     void step(const std::string& name, double seconds);
 
+    /// From here on the spans of this rank are kept for trace(), their starts counted from the moment at which all
+    /// ranks have come here. Collective.
+    void keep_trace();
+
+    /// Notes a span inside the current stage, if spans are kept. Not collective.
+    void span(const std::string& name, const std::string& category, Clock::time_point start,
+              Clock::time_point end);
+
     /// Collective: closes the stage and prints its line, `summary` being what rank 0 says of the result.
     void end(const std::string& summary);
 
@@ -54,8 +67,10 @@ class StageLog {
     [[nodiscard]] const std::vector<StageTimes>& stages() const noexcept { return stages_; }
     [[nodiscard]] double seconds_since_start() const;
 
+    /// Spans of this rank: stages, what span() noted in them, and as "wait" what followed the rank's own work.
+    [[nodiscard]] const RankTrace& trace() const noexcept { return trace_; }
+
   private:
-    using Clock = std::chrono::steady_clock;
     void clear_bar();
     void print_progress(std::int64_t done, std::int64_t total);
     [[nodiscard]] bool shows_bar() const;
@@ -73,6 +88,9 @@ class StageLog {
     double own_seconds_ = -1.0;
     std::vector<StepTime> steps_;  // of this rank
     std::vector<StageTimes> stages_;
+    bool keeps_trace_ = false;
+    Clock::time_point trace_start_;
+    RankTrace trace_;
 };
 
 }  // namespace coseg

@@ -33,4 +33,11 @@ assert all(0 <= row["idle"] < 1 and 0 < row["seconds_a_mesh"] <= row["describe"]
 END
 [[ $(wc -l <"$work/growth.md") -eq 4 ]] || fail "the table"
 refuses "a program that fails" 1 "ended with 1" python3 "$growth" --coseg /bin/false --only faces
+
+timeout 100 python3 "$growth" --coseg "$COSEG" --make "$work/made" --faces 24000 --count 2 || fail "growth.py --make"
+for mesh in "$work"/made/*.off; do
+    read -r _ faces _ < <(sed -n 2p "$mesh")
+    ((faces > 20000 && faces < 28000)) || fail "$mesh has $faces faces"
+done
+[[ $(find "$work/made" -type f | wc -l) -eq 2 && ! -e $work/made/report.json ]] || fail "what --make leaves"
 echo "ok: growth"
