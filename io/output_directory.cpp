@@ -29,8 +29,8 @@ struct OwnFolder {
 constexpr std::array<OwnFolder, 3> own_folders{{{"labels", ".seg"}, {"patches", ".seg"}, {"ply", ".ply"}}};
 // Not every run has these; those of an earlier run show what is no longer there.
 constexpr OwnFolder picture_pages{"sheets", ".png"};
-constexpr std::array<const char*, 2> picture_files{"contact_sheet",
-                                                   "report.html"};  // what their names begin with
+constexpr std::array<const char*, 3> picture_files{"contact_sheet", "report.html",
+                                                   "model.h5"};  // what their names begin with
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, const std::error_code& cause) {
     throw Error(ExitCode::output, path.string() + ": " + what + " (" + cause.message() + ")");

@@ -18,6 +18,7 @@
 #include "mpi_drivers/output_stage.hpp"
 #include "mpi_drivers/picture_stage.hpp"
 #include "mpi_drivers/report_stage.hpp"
+#include "mpi_drivers/run_model.hpp"
 #include "mpi_drivers/run_state.hpp"
 #include "mpi_drivers/segment_stage.hpp"
 #include "mpi_drivers/solution_output.hpp"
@@ -243,6 +244,8 @@ void co_segment(const Comm& comm, const RunOptions& options,
     refuse_unused_petsc_options(comm, "-");
     log.begin("write");
     write_meshes(comm, folder, collection, labels);
+    if (options.keep_model)
+        write_run_model(comm, folder.staging() + "/" + model_file, collection, features, cut.part_of_patch, options);
     log.end(options.out);
     if (options.sheet) {
         log.begin("picture");
