@@ -94,7 +94,7 @@ def find_sets(data, wanted):
     return {name: sets[name] for name in sets if not wanted or name in wanted}
 
 
-def command_output(words, timeout):
+def command_output(words, timeout=None):
     try:
         result = subprocess.run(words, capture_output=True, text=True, timeout=timeout)
     except subprocess.TimeoutExpired as expired:
