@@ -69,7 +69,8 @@ def measure(args, folder, seed):
         return sum(values[name] for name in chosen) / len(chosen)
     return {"full": mean(of_full, stems), "assigned": mean(of_rest, stems), "rest_in_full": mean(of_full, others),
             "rest": mean(of_rest, others), "full_seconds": full, "assign_seconds": new, "model_bytes": model,
-            "left": stems}
+            "left": stems, "per_shape_full": [of_full[name] for name in stems],
+            "per_shape_assigned": [of_rest[name] for name in stems]}
 
 
 def main():

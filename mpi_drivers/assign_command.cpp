@@ -86,8 +86,9 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     RunModel model;
     agree(world, [&] { model = read_run_model(command.run); });
     if (!model.same_build) {
-        log.warn(command.run + " was made by another build of coseg: if descriptors have changed since, labels suffer; "
-                               "run coseg run again to be sure");
+        log.warn(command.run +
+                 " was made by another build of coseg: if descriptors have changed since, labels suffer; "
+                 "run coseg run again to be sure");
     }
     const RunOptions options = merged(model, command.own);
     std::optional<RunState> state;
@@ -139,9 +140,11 @@ Command add_assign_command(CLI::App& parent) {
                     "Meshes (OFF, OBJ, PLY, STL), folders of them, or @LIST: a file with a path a line")
         ->required()
         ->type_name("MESH|DIRECTORY|@LIST");
-    app->add_option("--out", own.out, "Folder for the results; must be new or empty unless --force")->required();
+    app->add_option("--out", own.out, "Folder for the results; must be new or empty unless --force")
+        ->required();
     app->add_flag("--force", own.force, "Replace earlier results in a folder that is not empty");
-    app->add_flag("--strict", own.strict, "A mesh that cannot be used ends the command instead of being set aside");
+    app->add_flag("--strict", own.strict,
+                  "A mesh that cannot be used ends the command instead of being set aside");
     app->add_option("--state", own.state, "Folder that keeps descriptions of meshes, as of coseg run")
         ->type_name("DIR");
     app->add_option("--ranks", options->ranks,
@@ -149,14 +152,16 @@ Command add_assign_command(CLI::App& parent) {
         ->check(CLI::Range(0, 100000));
     app->add_flag("--sheet,!--no-sheet", own.sheet, "Draw contact_sheet.png (on by default)");
     app->add_flag("--html,!--no-html", own.html, "Write report.html (on by default)");
-    app->add_option("--view", own.view, "View of the picture; see coseg render --help")->capture_default_str();
+    app->add_option("--view", own.view, "View of the picture; see coseg render --help")
+        ->capture_default_str();
     app->add_option("--up", own.up, "The axis that points up: auto, x, y, z")
         ->capture_default_str()
         ->check(CLI::IsMember({"auto", "x", "y", "z"}));
     app->add_flag("--quiet", own.quiet, "No progress lines; warnings and errors only");
     app->add_flag("--verbose", own.verbose, "Also say what the steps of a stage took");
     app->add_flag("--json-log", own.json_log, "Progress and warnings as one JSON object a line");
-    app->footer("All other options are those of the run.\nExample: coseg assign --to result --out more new_chairs/");
+    app->footer(
+        "All other options are those of the run.\nExample: coseg assign --to result --out more new_chairs/");
     return {app, [options](const Invocation& invocation) { assign(*options, invocation); }};
 }
 

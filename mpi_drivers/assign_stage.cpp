@@ -75,14 +75,14 @@ PropagationInput propagation_input(const MeshDescription& mesh, const PatchNumbe
 /// What a mesh adds to the report, gathered in the order of meshes so that sums do not depend on the ranks.
 enum Figure { at_zero, objective, bound, residual, iterations, passes, pairs, reason, allowed, figure_count };
 
-Eigen::VectorXd figures_of(const SolveResult& result, const PatchFeatures& features, const SubspaceProblem& problem,
-                           int first, int count) {
+Eigen::VectorXd figures_of(const SolveResult& result, const PatchFeatures& features,
+                           const SubspaceProblem& problem, int first, int count) {
     double zero = 0.0;
     for (const Eigen::MatrixXd& x : features.histograms) zero += x.middleCols(first, count).squaredNorm();
     const double others = result.objective_at_zero - zero;  // of the run's columns, which have no rows here
     Eigen::VectorXd figures(static_cast<Eigen::Index>(figure_count));
-    figures << zero, result.objective - others, std::max(result.lower_bound - others, 0.0), result.kkt_residual,
-        result.iterations, result.passes, static_cast<double>(result.nonzero_groups),
+    figures << zero, result.objective - others, std::max(result.lower_bound - others, 0.0),
+        result.kkt_residual, result.iterations, result.passes, static_cast<double>(result.nonzero_groups),
         static_cast<double>(result.reason), static_cast<double>(allowed_pair_count(problem));
     return figures;
 }
@@ -97,9 +97,8 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Col
     const int first = collection.numbering.first(mesh.mesh, 0);
     const int count = collection.numbering.count(mesh.mesh);
     const SubspaceProblem problem = problem_of(model, features, first, count);
-    const SolveOptions solve{.gap = options.gap,
-                             .max_iterations = options.max_iterations,
-                             .max_seconds = options.max_seconds};
+    const SolveOptions solve{
+        .gap = options.gap, .max_iterations = options.max_iterations, .max_seconds = options.max_seconds};
     const SolveResult result = solve_subspace(self, problem, solve);
     MeshOutcome outcome;
     outcome.figures = figures_of(result, features, problem, first, count);
@@ -107,8 +106,9 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Col
         propagation_input(mesh, collection.numbering, evidence_of(result.coefficients, model, count)),
         assign_bonds);
     if (std::find(outcome.parts.begin(), outcome.parts.end(), -1) != outcome.parts.end()) {
-        throw Error(ExitCode::input, collection.meshes[static_cast<std::size_t>(mesh.mesh)].path +
-                                         ": patches of it have nothing in common with the run's shapes; leave it out");
+        throw Error(ExitCode::input,
+                    collection.meshes[static_cast<std::size_t>(mesh.mesh)].path +
+                        ": patches of it have nothing in common with the run's shapes; leave it out");
     }
     return outcome;
 }
@@ -142,7 +142,8 @@ Eigen::MatrixXd gather_figures(const Comm& comm, const Collection& collection,
     }
     meshes = all_gather(comm, std::span<const int>(meshes));
     values = all_gather(comm, std::span<const double>(values));
-    Eigen::MatrixXd figures(static_cast<Eigen::Index>(figure_count), static_cast<Eigen::Index>(meshes.size()));
+    Eigen::MatrixXd figures(static_cast<Eigen::Index>(figure_count),
+                            static_cast<Eigen::Index>(meshes.size()));
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         figures.col(meshes[k]) = Eigen::Map<const Eigen::VectorXd>(
             values.data() + k * static_cast<std::size_t>(figure_count), figures.rows());
@@ -161,9 +162,9 @@ Assigned assign_parts(const Comm& comm, const Collection& collection, const Patc
         for (const MeshDescription& mesh : collection.local) {
             outcomes.push_back(assign_mesh(self, mesh, collection, features, model, options));
             const std::vector<int>& parts = outcomes.back().parts;
-            parts_local.emplace_back(Eigen::Map<const Eigen::RowVectorXi>(
-                                         parts.data(), static_cast<Eigen::Index>(parts.size()))
-                                         .cast<double>());
+            parts_local.emplace_back(
+                Eigen::Map<const Eigen::RowVectorXi>(parts.data(), static_cast<Eigen::Index>(parts.size()))
+                    .cast<double>());
         }
     });
     const Eigen::MatrixXd all = gather_patch_columns(comm, collection, parts_local, 1);

@@ -245,7 +245,8 @@ void co_segment(const Comm& comm, const RunOptions& options,
     log.begin("write");
     write_meshes(comm, folder, collection, labels);
     if (options.keep_model)
-        write_run_model(comm, folder.staging() + "/" + model_file, collection, features, cut.part_of_patch, options);
+        write_run_model(comm, folder.staging() + "/" + model_file, collection, features, cut.part_of_patch,
+                        options);
     log.end(options.out);
     if (options.sheet) {
         log.begin("picture");

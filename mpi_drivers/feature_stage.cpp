@@ -116,10 +116,12 @@ Eigen::MatrixXd word_histograms(const Comm& comm, Collection& collection, const 
     for (int set = 0; set < options.word_sets; ++set) {
         const std::uint64_t seed =
             set == 0 ? options.seed : hash_words({options.seed, static_cast<std::uint64_t>(set)});
-        const Eigen::MatrixXf* known = given != nullptr ? &given->words.at(static_cast<std::size_t>(set)) : nullptr;
+        const Eigen::MatrixXf* known =
+            given != nullptr ? &given->words.at(static_cast<std::size_t>(set)) : nullptr;
         Eigen::MatrixXf centres;
-        const BinsOfMeshes bins = known != nullptr ? nearest_words(comm, contexts, *known)
-                                                   : shape_words(comm, contexts, options.bins, seed, &centres);
+        const BinsOfMeshes bins = known != nullptr
+                                      ? nearest_words(comm, contexts, *known)
+                                      : shape_words(comm, contexts, options.bins, seed, &centres);
         bins_used.words.push_back(known != nullptr ? *known : std::move(centres));
         all.middleRows(static_cast<Eigen::Index>(set) * options.bins, options.bins) =
             gathered_histograms(comm, collection, bins, options) / (is_root ? std::sqrt(sets) : sets);
@@ -154,7 +156,8 @@ PatchFeatures patch_features(const Comm& comm, Collection& collection, const Run
         if (!(weight > 0.0)) continue;
         const auto feature = static_cast<Feature>(h);
         if (feature == Feature::shape_context) {
-            features.histograms.push_back(weight * word_histograms(comm, collection, options, given, features.bins));
+            features.histograms.push_back(weight *
+                                          word_histograms(comm, collection, options, given, features.bins));
         } else {
             const BinsOfMeshes bins = scalar_bins(comm, collection, feature, options, given, features);
             features.histograms.push_back(weight * gathered_histograms(comm, collection, bins, options));

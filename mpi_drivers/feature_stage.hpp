@@ -21,8 +21,8 @@ struct NamedRange {
 
 /// What turns descriptors of faces into bins, so that shapes that come later fall into the same ones.
 struct FeatureBins {
-    std::vector<FeatureRange> ranges;     ///< of the scalar features of positive weight, in the order of Feature
-    std::vector<Eigen::MatrixXf> words;   ///< per set: centres of the shape-context words, d x words
+    std::vector<FeatureRange> ranges;  ///< of the scalar features of positive weight, in the order of Feature
+    std::vector<Eigen::MatrixXf> words;  ///< per set: centres of the shape-context words, d x words
 };
 
 struct PatchFeatures {

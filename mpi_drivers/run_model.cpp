@@ -115,9 +115,9 @@ bool fits_together(const RunModel& model) {
         return std::all_of(numbers.begin(), numbers.end(),
                            [&](int n) { return n >= 0 && static_cast<std::size_t>(n) < limit; });
     };
-    const bool columns_fit = std::all_of(
-        model.histograms.begin(), model.histograms.end(),
-        [&](const Eigen::MatrixXd& x) { return static_cast<std::size_t>(x.cols()) == patches; });
+    const bool columns_fit =
+        std::all_of(model.histograms.begin(), model.histograms.end(),
+                    [&](const Eigen::MatrixXd& x) { return static_cast<std::size_t>(x.cols()) == patches; });
     return patches > 0 && !model.histograms.empty() && columns_fit && model.mesh_of.size() == patches &&
            below(model.mesh_of, model.mesh_names.size()) && model.options.feature_weights.size() == 5 &&
            below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.parts, 0)));
@@ -172,10 +172,11 @@ RunModel read_run_model(const std::string& folder) {
     const std::string path = (fs::path(folder) / model_file).string();
     if (!fs::exists(path)) {
         const bool is_run = fs::exists(fs::path(folder) / "report.json");
-        throw Error(ExitCode::input,
-                    is_run ? "'" + folder + "' holds no " + model_file +
-                                 ": run coseg run again, without --no-keep-model"
-                           : "'" + folder + "' is no run; name the folder that coseg run was given with --out");
+        throw Error(
+            ExitCode::input,
+            is_run
+                ? "'" + folder + "' holds no " + model_file + ": run coseg run again, without --no-keep-model"
+                : "'" + folder + "' is no run; name the folder that coseg run was given with --out");
     }
     const Hdf5Reader file(path, model_format, model_version);
     RunModel model;

@@ -18,7 +18,8 @@ inline constexpr int model_version = 1;
 /// The patches of the run's meshes, or of a hashed sample of them: as many meshes as a patch of a run is linked to
 /// (solvers/mesh_links.hpp), so that the file stays small for any collection.
 struct RunModel {
-    RunOptions options;  ///< those on which descriptions, features, penalties and labels depend; defaults elsewhere
+    RunOptions
+        options;  ///< those on which descriptions, features, penalties and labels depend; defaults elsewhere
     FeatureBins bins;
     std::vector<int> feature_of;
     std::vector<Eigen::MatrixXd> histograms;  ///< as in PatchFeatures, rounded to single precision

@@ -9,7 +9,8 @@ namespace {
 
 PropagationInput chain(const Eigen::MatrixXd& evidence) {
     PropagationInput input{.evidence = evidence, .neighbors = {}, .overlaps = {}};
-    for (int j = 0; j + 1 < static_cast<int>(evidence.cols()); ++j) input.neighbors.push_back({j, j + 1, 1.0, 0.0});
+    for (int j = 0; j + 1 < static_cast<int>(evidence.cols()); ++j)
+        input.neighbors.push_back({j, j + 1, 1.0, 0.0});
     return input;
 }
 
@@ -54,9 +55,7 @@ TEST(LabelPropagation, SaysWhatNothingReaches) {
     EXPECT_EQ(propagate_labels(input, 1.0), (std::vector<int>{1, 1, -1}));
 }
 
-TEST(LabelPropagation, RefusesEmptyEvidence) {
-    EXPECT_THROW(propagate_labels({}, 1.0), Error);
-}
+TEST(LabelPropagation, RefusesEmptyEvidence) { EXPECT_THROW(propagate_labels({}, 1.0), Error); }
 
 }  // namespace
 }  // namespace coseg
