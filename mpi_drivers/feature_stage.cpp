@@ -122,7 +122,7 @@ Eigen::MatrixXd word_histograms(const Comm& comm, Collection& collection, const 
         const BinsOfMeshes bins = known != nullptr
                                       ? nearest_words(comm, contexts, *known)
                                       : shape_words(comm, contexts, options.bins, seed, &centres);
-        bins_used.words.push_back(known != nullptr ? *known : std::move(centres));
+        bins_used.words.push_back(known != nullptr ? *known : centres);
         all.middleRows(static_cast<Eigen::Index>(set) * options.bins, options.bins) =
             gathered_histograms(comm, collection, bins, options) / (is_root ? std::sqrt(sets) : sets);
     }
