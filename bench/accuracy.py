@@ -112,7 +112,7 @@ def generated_sets(coseg, shapes, families, folder):
     return sets
 
 
-def command_output(words, timeout):
+def command_output(words, timeout=None):
     try:
         result = subprocess.run(words, capture_output=True, text=True, timeout=timeout)
     except subprocess.TimeoutExpired as expired:

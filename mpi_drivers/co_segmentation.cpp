@@ -20,6 +20,7 @@
 #include "mpi_drivers/picture_stage.hpp"
 #include "mpi_drivers/profile.hpp"
 #include "mpi_drivers/report_stage.hpp"
+#include "mpi_drivers/run_model.hpp"
 #include "mpi_drivers/run_state.hpp"
 #include "mpi_drivers/segment_stage.hpp"
 #include "mpi_drivers/solution_output.hpp"
@@ -258,6 +259,8 @@ void co_segment(const Comm& comm, const RunOptions& options,
 
     std::optional<Journals> journals;
     if (state) journals.emplace(comm, *state, resolved, petsc_arguments);
+    ModelPatches model;
+    if (options.keep_model && comm.is_root()) model = model_patches(collection, features, options.seed);
     const Partitioned partitioned =
         partition_stage(comm, collection, features, options, journals ? &*journals : nullptr, log);
     const Optimisation& optimisation = partitioned.optimisation;
@@ -277,6 +280,9 @@ void co_segment(const Comm& comm, const RunOptions& options,
     refuse_unused_petsc_options(comm, "-");
     log.begin("write");
     write_meshes(comm, folder, collection, labels);
+    if (options.keep_model)
+        write_run_model(comm, folder.staging() + "/" + model_file, collection, features, model,
+                        cut.part_of_patch, options);
     log.end(options.out);
     if (options.sheet) {
         log.begin("picture");

@@ -39,5 +39,6 @@ Command add_man_command(CLI::App& parent);
 Command add_completion_command(CLI::App& parent);
 Command add_describe_command(CLI::App& parent);
 Command add_state_command(CLI::App& parent);
+Command add_assign_command(CLI::App& parent);
 
 }  // namespace coseg

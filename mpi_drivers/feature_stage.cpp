@@ -48,7 +48,7 @@ Eigen::VectorXd face_weights(const MeshDescription& mesh, HistogramScaling scali
 }
 
 BinsOfMeshes scalar_bins(const Comm& comm, Collection& collection, Feature feature, const RunOptions& options,
-                         std::vector<NamedRange>& ranges) {
+                         const FeatureBins* given, PatchFeatures& features) {
     const RangeKind kind = range_kind(feature, options);
     const auto index = static_cast<std::size_t>(feature);
     std::vector<FeatureOfMesh> values;
@@ -57,8 +57,11 @@ BinsOfMeshes scalar_bins(const Comm& comm, Collection& collection, Feature featu
             rescale_per_mesh(mesh.descriptors[index], mesh.geometry.area);
         values.push_back({mesh.key, &mesh.descriptors[index], &mesh.geometry.area});
     }
-    const FeatureRange range = agree_on_range(comm, kind, options.bins, values, options.seed);
-    ranges.push_back({feature_names[index], name_of(kind), range.edges.front(), range.edges.back()});
+    const FeatureRange range = given != nullptr
+                                   ? given->ranges.at(features.bins.ranges.size())
+                                   : agree_on_range(comm, kind, options.bins, values, options.seed);
+    features.ranges.push_back({feature_names[index], name_of(kind), range.edges.front(), range.edges.back()});
+    features.bins.ranges.push_back(range);
     BinsOfMeshes bins;
     agree(comm, [&] {
         for (const MeshDescription& mesh : collection.local)
@@ -94,9 +97,19 @@ Eigen::MatrixXd gathered_histograms(const Comm& comm, const Collection& collecti
     return gather_patch_columns(comm, collection, local, options.bins);
 }
 
+BinsOfMeshes nearest_words(const Comm& comm, const std::vector<ShapeWordInput>& contexts,
+                           const Eigen::MatrixXf& centres) {
+    BinsOfMeshes bins;
+    agree(comm, [&] {
+        for (const ShapeWordInput& mesh : contexts) bins.push_back(words_of(*mesh.context, centres));
+    });
+    return bins;
+}
+
 /// Histograms over several sets of words, one below the other, scaled so that inner products are the mean over the
 /// sets (square roots), or columns the mean: where k-means puts its borders is chance, which several sets even out.
-Eigen::MatrixXd word_histograms(const Comm& comm, const Collection& collection, const RunOptions& options) {
+Eigen::MatrixXd word_histograms(const Comm& comm, const Collection& collection, const RunOptions& options,
+                                const FeatureBins* given, FeatureBins& bins_used) {
     std::vector<ShapeWordInput> contexts;
     for (const MeshDescription& mesh : collection.local) contexts.push_back({mesh.key, &mesh.shape_context});
     const auto sets = static_cast<double>(options.word_sets);
@@ -105,7 +118,13 @@ Eigen::MatrixXd word_histograms(const Comm& comm, const Collection& collection, 
     for (int set = 0; set < options.word_sets; ++set) {
         const std::uint64_t seed =
             set == 0 ? options.seed : hash_words({options.seed, static_cast<std::uint64_t>(set)});
-        const BinsOfMeshes bins = shape_words(comm, contexts, options.bins, seed);
+        const Eigen::MatrixXf* known =
+            given != nullptr ? &given->words.at(static_cast<std::size_t>(set)) : nullptr;
+        Eigen::MatrixXf centres;
+        const BinsOfMeshes bins = known != nullptr
+                                      ? nearest_words(comm, contexts, *known)
+                                      : shape_words(comm, contexts, options.bins, seed, &centres);
+        bins_used.words.push_back(known != nullptr ? *known : centres);
         all.middleRows(static_cast<Eigen::Index>(set) * options.bins, options.bins) =
             gathered_histograms(comm, collection, bins, options) / (is_root ? std::sqrt(sets) : sets);
     }
@@ -139,16 +158,18 @@ void release_descriptors(Collection& collection) {
 
 }  // namespace
 
-PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options) {
+PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options,
+                             const FeatureBins* given) {
     PatchFeatures features;
     for (int h = 0; h < feature_total; ++h) {
         const double weight = options.feature_weights[static_cast<std::size_t>(h)];
         if (!(weight > 0.0)) continue;
         const auto feature = static_cast<Feature>(h);
         if (feature == Feature::shape_context) {
-            features.histograms.push_back(weight * word_histograms(comm, collection, options));
+            features.histograms.push_back(weight *
+                                          word_histograms(comm, collection, options, given, features.bins));
         } else {
-            const BinsOfMeshes bins = scalar_bins(comm, collection, feature, options, features.ranges);
+            const BinsOfMeshes bins = scalar_bins(comm, collection, feature, options, given, features);
             features.histograms.push_back(weight * gathered_histograms(comm, collection, bins, options));
         }
         features.feature_of.push_back(h);

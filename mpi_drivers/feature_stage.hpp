@@ -9,6 +9,7 @@
 #include "mpi_drivers/run_options.hpp"
 #include "solvers/partition_choice.hpp"
 #include "src/comm.hpp"
+#include "src/feature_range.hpp"
 
 namespace coseg {
 
@@ -19,6 +20,12 @@ struct NamedRange {
     double high = 0.0;
 };
 
+/// What turns descriptors of faces into bins, so that shapes that come later fall into the same ones.
+struct FeatureBins {
+    std::vector<FeatureRange> ranges;  ///< of the scalar features of positive weight, in the order of Feature
+    std::vector<Eigen::MatrixXf> words;  ///< per set: centres of the shape-context words, d x words
+};
+
 struct PatchFeatures {
     std::vector<Eigen::MatrixXd>
         histograms;  ///< features with positive weight: bins x N each (shape contexts: bins word_sets x N), times the weight
@@ -27,10 +34,12 @@ struct PatchFeatures {
     /// What the choice of the partition looks at, where the histograms are gone before it; see choice_descriptors.
     std::vector<ChoiceDescriptor> choice;
     std::vector<NamedRange> ranges;  ///< the bin range of every scalar feature, for the report
+    FeatureBins bins;
 };
 
-/// Collective; the same bits on every rank and on any number of ranks. Releases the descriptors of `collection`, which
-/// no later stage looks at.
-PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options);
+/// given: the bins of an earlier collection, which are kept; null: they are made from this one. Collective; the same bits on
+/// every rank and on any number of ranks. Releases the descriptors of `collection`, which no later stage looks at.
+PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options,
+                             const FeatureBins* given = nullptr);
 
 }  // namespace coseg

@@ -124,7 +124,8 @@ int parse_and_run(const Comm& world, int argc, char** argv) {
         coseg::add_render_command(app),   coseg::add_report_command(app),
         coseg::add_cluster_command(app),  coseg::add_export_command(app),
         coseg::add_man_command(app),      coseg::add_completion_command(app),
-        coseg::add_describe_command(app), coseg::add_state_command(app)};
+        coseg::add_describe_command(app), coseg::add_state_command(app),
+        coseg::add_assign_command(app)};
     try {
         refuse_unknown_command(commands, arguments.own);
         std::vector<std::string> words = coseg::with_config_file(world, arguments.own);

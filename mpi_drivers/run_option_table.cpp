@@ -139,6 +139,8 @@ void RunOptionTable::add_results(CLI::App& app) {
         ->check(CLI::Range(1, 1000));
     add(app, "out", options_.out, "Folder for the results; must be new or empty unless --force", in_out_group)
         ->required();
+    add_switch(app, "keep-model", options_.keep_model,
+               "Write DIR/model.h5, by which coseg assign labels more shapes like these", in_out_group);
     add_switch(app, "force", options_.force, "Replace earlier results in a folder that is not empty",
                in_out_group);
     add_switch(

@@ -21,6 +21,7 @@ struct RunOptions {
     bool json_log = false;
     bool keep_features = false;
     bool profile = false;
+    bool keep_model = true;
     std::uint64_t seed = 1;
     std::string state;
     double checkpoint_seconds = 60.0;

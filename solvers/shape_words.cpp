@@ -6,6 +6,7 @@
 #include <string>
 
 #include "solvers/lloyd.hpp"
+#include "solvers/word_search.hpp"
 #include "solvers/word_seeds.hpp"
 #include "src/error.hpp"
 #include "src/hashed_sample.hpp"
@@ -122,12 +123,13 @@ std::vector<int> canonical_numbers(const Eigen::MatrixXf& words) {
 }  // namespace
 
 std::vector<std::vector<int>> shape_words(const Comm& comm, const std::vector<ShapeWordInput>& local,
-                                          int words, std::uint64_t seed) {
+                                          int words, std::uint64_t seed, Eigen::MatrixXf* canonical) {
     agree(comm, [&] { check_contexts(local, words); });
     const Eigen::Index dims = agreed_dimension(comm, local);
     const LocalSample sample = sample_of(comm, local, seed);
     Eigen::MatrixXf centres =
         word_seeds(gather_in_canonical_order(comm, local, sample, dims), words, mix_bits(seed));
+    if (canonical != nullptr) *canonical = centres;
     if (centres.cols() == 0) return std::vector<std::vector<int>>(local.size());
 
     std::vector<WordedPoints> sampled;
@@ -143,7 +145,24 @@ std::vector<std::vector<int>> shape_words(const Comm& comm, const std::vector<Sh
         for (int& word : mesh.word) word = number[static_cast<std::size_t>(word)];
         word_of_face.push_back(std::move(mesh.word));
     }
+    for (Eigen::Index w = 0; canonical != nullptr && w < centres.cols(); ++w)
+        canonical->col(number[static_cast<std::size_t>(w)]) = centres.col(w);
     return word_of_face;
+}
+
+std::vector<int> words_of(const Eigen::MatrixXf& context, const Eigen::MatrixXf& centres) {
+    check_contexts({{0, &context}}, 1);
+    if (context.rows() != centres.rows() || centres.cols() == 0) {
+        throw Error(ExitCode::internal, "shape contexts of " + std::to_string(context.rows()) +
+                                            " entries, but words of " + std::to_string(centres.rows()));
+    }
+    std::vector<int> columns(static_cast<std::size_t>(context.cols()));
+    std::iota(columns.begin(), columns.end(), 0);
+    std::vector<NearestWord> nearest(columns.size());
+    WordSearch(centres).search(context, columns, nearest);
+    std::vector<int> words;
+    for (const NearestWord& found : nearest) words.push_back(found.word);
+    return words;
 }
 
 }  // namespace coseg

@@ -79,6 +79,21 @@ TEST(ShapeWords, AreTheSameOnAnyNumberOfRanks) {
     expect_same_as_alone(contexts({30'000, 2000, 9000, 4000}, 10, 1.0), 40, 3);
 }
 
+TEST(ShapeWords, CentresGiveBackTheWordsOnceTheRoundsHaveEnded) {
+    const Comm world(MPI_COMM_WORLD);
+    const auto all = contexts({800, 1500, 60, 2000, 333}, 9, 0.02);
+    Eigen::MatrixXf centres;
+    const auto words = shape_words(world, dealt(world, all), 9, 1, &centres);
+    ASSERT_EQ(centres.cols(), 9);
+    ASSERT_EQ(centres.rows(), dims);
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < all.size(); ++m) {
+        if (!is_mine(world, m)) continue;
+        EXPECT_EQ(words_of(all[m], centres), words[next++]) << m;
+    }
+    EXPECT_THROW((void)words_of(Eigen::MatrixXf::Ones(dims + 1, 2), centres), Error);
+}
+
 TEST(ShapeWords, SeparateWellSeparatedGroups) {
     const Comm world(MPI_COMM_WORLD);
     const int groups = 9;
