@@ -12,6 +12,11 @@ namespace coseg {
 namespace {
 
 constexpr int inner_check_interval = 5;
+/// Newton's direction is tried from this iteration on a working set on, after each check; what gradient steps solve
+/// quickly, as where lambda is large, does not get there.
+constexpr int first_newton_step = 15;
+/// A step that is cut short, for the support is not the optimum's yet, makes the next one wait twice as long, up to this many checks.
+constexpr int longest_newton_wait = 16;
 constexpr double smallest_inner_gap = 1e-16;
 /// Pairs that stay zero leave after each of the first passes; later they stay, so that no pair can come and
 /// go for ever.
@@ -85,6 +90,8 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
                   SolveResult& result) {
     WorkingSetModel model(comm, problem, stack, working, prices);
     const int before = result.iterations;
+    int wait = 1;
+    int next_newton = first_newton_step;
     const auto stop = [&](const SpectralProgress& inner) {
         result.iterations = before + inner.iterations;
         result.kkt_residual = inner.residual / gradient_scale(stack);
@@ -92,7 +99,12 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         if (inner.iterations % inner_check_interval != 0) return false;
         progress.limited = rule.limit_reached(result.iterations, 1.0);
         const double gap = model.objective() - model.lower_bound();
-        return progress.limited || gap <= progress.inner_gap * rule.scale(model.objective());
+        if (progress.limited || gap <= progress.inner_gap * rule.scale(model.objective())) return true;
+        if (inner.iterations >= next_newton) {
+            wait = model.newton_step() == 1.0 ? 1 : std::min(2 * wait, longest_newton_wait);
+            next_newton = inner.iterations + wait * inner_check_interval;
+        }
+        return false;
     };
     spectral_projected_gradient(model, 0.5 / stack.largest_inner, stop);
     model.store(working);
