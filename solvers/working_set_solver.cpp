@@ -16,7 +16,7 @@ constexpr int inner_check_interval = 5;
 /// quickly, as where lambda is large, does not get there.
 constexpr int first_newton_step = 15;
 /// A step that is cut short, for the support is not the optimum's yet, makes the next one wait twice as long, up to this many checks.
-constexpr int longest_newton_wait = 16;
+constexpr int longest_newton_wait = 6;
 constexpr double smallest_inner_gap = 1e-16;
 /// Pairs that stay zero leave after each of the first passes; later they stay, so that no pair can come and
 /// go for ever.
