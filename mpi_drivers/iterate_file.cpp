@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* iterate_format = "coseg solver iterate";
-constexpr int iterate_version = 1;
+constexpr int iterate_version = 2;
 
 std::string iterate_name(int generation, BlockRange columns) {
     char text[80];
@@ -80,7 +80,7 @@ bool is_complete(const std::vector<IterateFile>& files, std::int64_t size) {
 void write_iterate(const std::string& path, const SolveIterate& iterate, int features) {
     // One name for each field: a new one does not compile until it has been thought of here.
     const auto& [columns, offsets, rows, weights, prices, spectral, inner_gap, lower_bound, iterations,
-                 passes, finished, objective, residual, reason] = iterate;
+                 passes, newton, finished, objective, residual, reason] = iterate;
     const auto& [step, recent, count, inner_iterations] = spectral;
     Hdf5Writer file(path, iterate_format, iterate_version);
     file.attribute("source_fingerprint", source_fingerprint());
@@ -96,7 +96,7 @@ void write_iterate(const std::string& path, const SolveIterate& iterate, int fea
     file.write("recent", std::vector<double>(recent.begin(), recent.end()));
     file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual});
     file.write("counts", std::vector<std::int64_t>{count, inner_iterations, iterations, passes,
-                                                   finished ? 1 : 0, reason});
+                                                   finished ? 1 : 0, reason, newton.wait, newton.next});
     file.commit();
 }
 
@@ -125,6 +125,7 @@ SolveIterate read_iterate(const std::string& path) {
     iterate.objective = numbers.at(3);
     iterate.residual = numbers.at(4);
     iterate.reason = static_cast<int>(counts.at(5));
+    iterate.newton = {static_cast<int>(counts.at(6)), static_cast<int>(counts.at(7))};
     return iterate;
 }
 

@@ -25,6 +25,44 @@ const double* column_of(const FeatureStack& stack, int i) {
     return stack.columns.data() + static_cast<std::int64_t>(i) * stack.dimension;
 }
 
+/// `width` features a pair, known to the compiler; sums stay in registers.
+template <std::size_t width>
+void apply_stored_gram(const ColumnFit& fit, const double* __restrict weights, double* __restrict product) {
+    const std::size_t pairs = fit.rows.size();
+    const double* __restrict gram = fit.gram.data();
+    for (std::size_t p = 0; p < pairs; ++p) {
+        double sum[width] = {};
+        double own[width];
+        for (std::size_t h = 0; h < width; ++h) own[h] = weights[p * width + h];
+        for (std::size_t q = 0; q < p * width; q += width, gram += width) {
+            for (std::size_t h = 0; h < width; ++h) {
+                sum[h] += gram[h] * weights[q + h];
+                product[q + h] += gram[h] * own[h];
+            }
+        }
+        for (std::size_t h = 0; h < width; ++h) product[p * width + h] = sum[h] + gram[h] * own[h];
+        gram += width;
+    }
+}
+
+void apply_stored_gram(const ColumnFit& fit, std::size_t features, const double* weights, double* product) {
+    const std::size_t pairs = fit.rows.size();
+    std::fill_n(product, pairs * features, 0.0);
+    const double* gram = fit.gram.data();
+    for (std::size_t p = 0; p < pairs; ++p) {
+        double* product_p = product + p * features;
+        const double* weights_p = weights + p * features;
+        for (std::size_t q = 0; q < p; ++q, gram += features) {
+            for (std::size_t h = 0; h < features; ++h) {
+                product_p[h] += gram[h] * weights[q * features + h];
+                product[q * features + h] += gram[h] * weights_p[h];
+            }
+        }
+        for (std::size_t h = 0; h < features; ++h) product_p[h] += gram[h] * weights_p[h];
+        gram += features;
+    }
+}
+
 }  // namespace
 
 void feature_products(const FeatureStack& stack, int row, const double* y, double* products) {
@@ -79,19 +117,10 @@ void apply_gram(const FeatureStack& stack, const ColumnFit& fit, const double* w
         }
         return;
     }
-    std::fill_n(product, pairs * features, 0.0);
-    const double* gram = fit.gram.data();
-    for (std::size_t p = 0; p < pairs; ++p) {
-        double* product_p = product + p * features;
-        const double* weights_p = weights + p * features;
-        for (std::size_t q = 0; q < p; ++q, gram += features) {
-            for (std::size_t h = 0; h < features; ++h) {
-                product_p[h] += gram[h] * weights[q * features + h];
-                product[q * features + h] += gram[h] * weights_p[h];
-            }
-        }
-        for (std::size_t h = 0; h < features; ++h) product_p[h] += gram[h] * weights_p[h];
-        gram += features;
+    if (features == 5) {
+        apply_stored_gram<5>(fit, weights, product);
+    } else {
+        apply_stored_gram(fit, features, weights, product);
     }
 }
 

@@ -30,6 +30,12 @@ struct SolvedTile {
     bool limited = false;  ///< a column stopped at the iteration limit
 };
 
+/// When the solve on the working set next tries a Newton step.
+struct NewtonTurns {
+    int wait = 1;  ///< in checks of the stopping rule
+    int next = 0;  ///< iteration of this solve
+};
+
 /// Where scope paper stands: in the middle of a solve on its working set, or at its end. A function of the problem and
 /// the options; each rank holds its own columns.
 struct SolveIterate {
@@ -44,6 +50,7 @@ struct SolveIterate {
     double lower_bound = 0.0;  ///< the best so far
     int iterations = 0;        ///< before this solve; at the end: in all
     int passes = 0;
+    NewtonTurns newton;
     // At the end:
     bool finished = false;
     double objective = 0.0;

@@ -10,6 +10,7 @@ namespace coseg {
 
 namespace {
 
+constexpr int newton_halvings = 8;
 enum Scalar : std::size_t { fit, penalty, distance2, curvature, scalar_count };
 
 std::vector<int> all_rows(const WorkingSet& working) {
@@ -17,6 +18,13 @@ std::vector<int> all_rows(const WorkingSet& working) {
     for (const ColumnFit& column : working.fits)
         rows.insert(rows.end(), column.rows.begin(), column.rows.end());
     return rows;
+}
+
+/// Where each column's values begin.
+std::vector<std::size_t> value_offsets(const WorkingSet& working) {
+    std::vector<std::size_t> offsets{0};
+    for (const ColumnFit& column : working.fits) offsets.push_back(offsets.back() + column.weights.size());
+    return offsets;
 }
 
 }  // namespace
@@ -34,12 +42,12 @@ WorkingSetModel::WorkingSetModel(const Comm& comm, const SubspaceProblem& proble
       stack_(stack),
       working_(working),
       prices_(prices),
-      offset_{0},
+      offset_(value_offsets(working)),
       exchange_(comm, stack.size, stack.features, all_rows(working)),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
+      newton_(comm, problem, stack, working.fits, offset_, exchange_),
       sums_(0, 1.0, scalar_count) {
     for (const ColumnFit& column : working.fits) {
-        offset_.push_back(offset_.back() + column.weights.size());
         linear_.insert(linear_.end(), column.linear.begin(), column.linear.end());
         forward_.insert(forward_.end(), column.weights.begin(), column.weights.end());
     }
@@ -47,12 +55,32 @@ WorkingSetModel::WorkingSetModel(const Comm& comm, const SubspaceProblem& proble
     current_.product.assign(forward_.size(), 0.0);
     current_.row_sums.assign(prices.size(), 0.0);
     trial_ = current_;
-    // The given weights become the current point as they are: a row's prox of step 0 only sums.
+    evaluate_forward();
+    accept();
+}
+
+/// forward_ becomes the trial as it is: a row's prox of step 0 only sums.
+TrialPoint WorkingSetModel::evaluate_forward() {
     exchange_.to_rows(forward_, by_row_);
     shrink_rows(0.0);
     measure_columns();
-    finish_trial();
-    accept();
+    return finish_trial();
+}
+
+double WorkingSetModel::newton_step() {
+    for (std::size_t at = 0; at < forward_.size(); ++at)
+        forward_[at] = 2.0 * (current_.product[at] - linear_[at]);
+    const std::vector<double>& direction =
+        newton_.direction(current_.weights, forward_, current_.row_sums);
+    double size = 1.0;
+    for (int halving = 0; halving < newton_halvings; ++halving, size *= 0.5) {
+        for (std::size_t at = 0; at < forward_.size(); ++at)
+            forward_[at] = std::max(current_.weights[at] + size * direction[at], 0.0);
+        if (evaluate_forward().objective >= current_.objective) continue;
+        accept();
+        return size;
+    }
+    return 0.0;
 }
 
 /// From forward_ to the trial's weights; the penalties are added up tile by tile of rows.

@@ -15,6 +15,7 @@
 #include "solvers/row_prox.hpp"
 #include "solvers/spectral_projected_gradient.hpp"
 #include "solvers/subspace_problem.hpp"
+#include "solvers/support_newton.hpp"
 
 namespace coseg {
 
@@ -36,6 +37,9 @@ class WorkingSetModel {
     [[nodiscard]] double objective() const noexcept { return current_.objective; }
     TrialPoint propose(double step);
     void accept() { std::swap(current_, trial_); }
+    /// Replaces the current point by a better one along Newton's direction on its support, if there is one. Returns the
+    /// length of the step, 1 where the support holds; 0: the point stays. Collective.
+    double newton_step();
 
     /// Of this working set's own optimum. Collective.
     [[nodiscard]] double lower_bound() const;
@@ -53,6 +57,7 @@ class WorkingSetModel {
     };
     void shrink_rows(double step);
     void measure_columns();
+    TrialPoint evaluate_forward();
     TrialPoint finish_trial();
 
     const Comm& comm_;
@@ -64,6 +69,7 @@ class WorkingSetModel {
     std::vector<double> linear_;
     RowExchange exchange_;
     RowProx prox_;
+    SupportNewton newton_;
     Point current_;
     Point trial_;
     std::vector<double> forward_;  ///< W - step G

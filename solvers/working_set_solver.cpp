@@ -13,6 +13,11 @@ namespace coseg {
 namespace {
 
 constexpr int inner_check_interval = 5;
+/// Newton's direction is tried from this iteration on a working set on, after each check; what gradient steps solve
+/// quickly, as where lambda is large, does not get there.
+constexpr int first_newton_step = 15;
+/// A step that is cut short, for the support is not the optimum's yet, makes the next one wait twice as long, up to this many checks.
+constexpr int longest_newton_wait = 6;
 constexpr double smallest_inner_gap = 1e-16;
 /// Pairs that stay zero leave after each of the first passes; later they stay, so that no pair can come and
 /// go for ever.
@@ -114,9 +119,10 @@ void restore(const FeatureStack& stack, const SolveIterate& iterate, WorkingSet&
 /// from: where an earlier run was in this very solve, if it was.
 void solve_inside(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                   WorkingSet& working, std::vector<double>& prices, StoppingRule& rule, Progress& progress,
-                  SolveResult& result, SolveJournal* journal, const SpectralState* from) {
+                  SolveResult& result, SolveJournal* journal, const SolveIterate* from) {
     WorkingSetModel model(comm, problem, stack, working, prices);
     const int before = result.iterations;
+    NewtonTurns turns = from != nullptr ? from->newton : NewtonTurns{.wait = 1, .next = first_newton_step};
     const auto keep = [&](const SpectralProgress& inner) {
         const JournalTurn turn = journal->turn();
         progress.stopped = turn == JournalTurn::keep_and_stop;
@@ -128,6 +134,7 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         iterate.lower_bound = rule.lower_bound();
         iterate.iterations = before;
         iterate.passes = result.passes;
+        iterate.newton = turns;
         journal->keep_iterate(iterate);
     };
     const auto stop = [&](const SpectralProgress& inner) {
@@ -138,11 +145,16 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         progress.limited = rule.limit_reached(result.iterations, 1.0);
         const double gap = model.objective() - model.lower_bound();
         if (progress.limited || gap <= progress.inner_gap * rule.scale(model.objective())) return true;
+        if (inner.iterations >= turns.next) {
+            turns.wait = model.newton_step() == 1.0 ? 1 : std::min(2 * turns.wait, longest_newton_wait);
+            turns.next = inner.iterations + turns.wait * inner_check_interval;
+        }
+        // After the step, so that a run that continues from here is where this one is.
         if (journal != nullptr) keep(inner);
         return progress.stopped;
     };
     if (from != nullptr)
-        spectral_projected_gradient(model, *from, stop);
+        spectral_projected_gradient(model, from->spectral, stop);
     else
         spectral_projected_gradient(model, 0.5 / stack.largest_inner, stop);
     model.store(working);
@@ -230,7 +242,7 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
             known || prepare_solve(stack, findings, options, result.passes, rule, working, progress);
         if (!goes_on) break;
         solve_inside(comm, problem, stack, working, prices, rule, progress, result, journal,
-                     known ? &known->spectral : nullptr);
+                     known ? &*known : nullptr);
         known.reset();
         if (progress.stopped) break;
         findings = pass.run(working, progress.row_sums);

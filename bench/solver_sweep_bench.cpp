@@ -1,0 +1,179 @@
+// Whether the subspace solvers reach a gap over the whole range of the penalties: one line of JSON a case, small
+// problems of three kinds, both scopes, and a summary.
+//
+//   mpirun -n P solver_sweep_bench [--kinds random,histogram,counts] [--size 40] [--gaps 1e-4,1e-8] [--seconds 10]
+//   [--alphas 0,.01,.1,.5] [--betas 0,.01,.1,.5] [--lambdas 0,1e-3,1e-2,.1,1,100,1e4] [--scopes paper,mesh]
+//
+// The penalties are those of columns of unit length; for counts they are multiplied by the mean squared length of a
+// column, which is what makes them act alike.
+
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "solvers/pass_clock.hpp"
+#include "solvers/subspace_solver.hpp"
+#include "src/seeded_random.hpp"
+
+namespace {
+
+using coseg::PenaltyScope;
+using coseg::SubspaceProblem;
+using nlohmann::ordered_json;
+
+struct Settings {
+    std::vector<std::string> kinds{"random", "histogram", "counts"};
+    std::vector<std::string> scopes{"paper", "mesh"};
+    std::vector<double> alphas{0.0, 0.01, 0.1, 0.5};
+    std::vector<double> betas{0.0, 0.01, 0.1, 0.5};
+    std::vector<double> lambdas{0.0, 1e-3, 1e-2, 0.1, 1.0, 100.0, 1e4};
+    std::vector<double> gaps{1e-4, 1e-8};
+    int size = 40;
+    int rows = 20;
+    double seconds = 10.0;
+    std::string solver = "auto";
+};
+
+constexpr int features = 5;
+constexpr int parts = 5;
+
+/// A column of one patch: independent entries, or bumps around its part's centres.
+Eigen::VectorXd column_of(const std::string& kind, int rows, int feature, int patch) {
+    const auto h = static_cast<std::uint64_t>(feature);
+    coseg::SeededStream part(coseg::hash_words({19, h, static_cast<std::uint64_t>(patch % parts)}));
+    coseg::SeededStream own(coseg::hash_words({17, h, static_cast<std::uint64_t>(patch)}));
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(rows);
+    if (kind == "random") {
+        for (int k = 0; k < rows; ++k) x[k] = std::pow(own.uniform(), 3.0);
+        return x.normalized();
+    }
+    for (int bump = 0; bump < 3; ++bump) {
+        const double centre = part.uniform(0.0, rows) + 0.04 * rows * own.normal();
+        const double width = rows * part.uniform(0.02, 0.08);
+        const double mass = own.uniform(0.2, 1.2);
+        for (int k = 0; k < rows; ++k) {
+            x[k] += mass * own.uniform(0.5, 1.5) * std::exp(-0.5 * std::pow((k - centre) / width, 2));
+        }
+    }
+    if (kind == "counts") return (200.0 / x.sum() * x).array().round().matrix();
+    return (x / x.sum()).cwiseSqrt();
+}
+
+SubspaceProblem generate(const std::string& kind, const Settings& settings) {
+    SubspaceProblem problem;
+    for (int h = 0; h < features; ++h) {
+        Eigen::MatrixXd x(settings.rows, settings.size);
+        for (int j = 0; j < settings.size; ++j) x.col(j) = column_of(kind, settings.rows, h, j);
+        problem.features.push_back(std::move(x));
+    }
+    for (int j = 0; j < settings.size; ++j) problem.mesh_of.push_back(j / 10);
+    return problem;
+}
+
+double mean_square(const SubspaceProblem& problem) {
+    double squares = 0.0;
+    for (const Eigen::MatrixXd& x : problem.features) squares += x.squaredNorm();
+    return squares / static_cast<double>(problem.size() * problem.feature_count());
+}
+
+struct Summary {
+    int cases = 0;
+    int reached = 0;
+    double slowest = 0.0;
+    double total = 0.0;
+};
+
+void run_case(const coseg::Comm& comm, const SubspaceProblem& problem, const std::string& kind,
+              const Settings& settings, double gap, Summary& summary) {
+    const double start = coseg::PassClock::cpu_seconds();
+    const coseg::SolveResult result = solve_subspace(
+        comm, problem, {.gap = gap, .max_seconds = settings.seconds, .solver = settings.solver});
+    const double seconds = coseg::all_max(comm, coseg::PassClock::cpu_seconds() - start);
+    ++summary.cases;
+    summary.reached += result.relative_gap <= gap ? 1 : 0;
+    summary.slowest = std::max(summary.slowest, seconds);
+    summary.total += seconds;
+    const ordered_json line{{"kind", kind},
+                            {"scope", problem.scope == PenaltyScope::mesh ? "mesh" : "paper"},
+                            {"alpha", problem.alpha},
+                            {"beta", problem.beta},
+                            {"lambda", problem.lambda},
+                            {"gap", gap},
+                            {"relative_gap", result.relative_gap},
+                            {"reason", to_string(result.reason)},
+                            {"cpu_seconds", seconds},
+                            {"iterations", result.iterations},
+                            {"passes", result.passes},
+                            {"objective", result.objective},
+                            {"share_left", result.objective / result.objective_at_zero},
+                            {"nonzero_groups", result.nonzero_groups}};
+    if (comm.is_root()) std::cout << line.dump() << std::endl;
+}
+
+void run(const Settings& settings) {
+    const coseg::Comm comm(MPI_COMM_WORLD);
+    Summary summary;
+    for (const std::string& kind : settings.kinds) {
+        SubspaceProblem problem = generate(kind, settings);
+        const double scale = kind == "counts" ? mean_square(problem) : 1.0;
+        for (const std::string& scope : settings.scopes) {
+            problem.scope = scope == "mesh" ? PenaltyScope::mesh : PenaltyScope::paper;
+            for (const double lambda : settings.lambdas) {
+                for (const double alpha : settings.alphas) {
+                    for (const double beta : settings.betas) {
+                        problem.lambda = lambda * scale;
+                        problem.alpha = alpha * scale;
+                        problem.beta = beta * scale;
+                        for (const double gap : settings.gaps)
+                            run_case(comm, problem, kind, settings, gap, summary);
+                    }
+                }
+            }
+        }
+    }
+    const ordered_json line{{"cases", summary.cases},
+                            {"reached", summary.reached},
+                            {"slowest_cpu_seconds", summary.slowest},
+                            {"total_cpu_seconds", summary.total}};
+    if (comm.is_root()) std::cout << line.dump() << std::endl;
+}
+
+int parse_and_run(int argc, char** argv) {
+    Settings settings;
+    CLI::App app("Gaps of the subspace solvers over the range of the penalties");
+    app.add_option("--kinds", settings.kinds, "random, histogram, counts")->delimiter(',');
+    app.add_option("--scopes", settings.scopes, "paper, mesh")->delimiter(',');
+    app.add_option("--alphas", settings.alphas)->delimiter(',')->capture_default_str();
+    app.add_option("--betas", settings.betas)->delimiter(',')->capture_default_str();
+    app.add_option("--lambdas", settings.lambdas)->delimiter(',')->capture_default_str();
+    app.add_option("--gaps", settings.gaps)->delimiter(',')->capture_default_str();
+    app.add_option("--size", settings.size, "Columns")->capture_default_str();
+    app.add_option("--rows", settings.rows, "Rows of a feature")->capture_default_str();
+    app.add_option("--seconds", settings.seconds, "Limit of a case")->capture_default_str();
+    app.add_option("--solver", settings.solver, "auto, dense or working-set")->capture_default_str();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error);
+    }
+    run(settings);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    int status = 1;
+    try {
+        status = parse_and_run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    }
+    MPI_Finalize();
+    return status;
+}
