@@ -7,9 +7,9 @@
 #include <numeric>
 #include <string>
 
-#include "solvers/affinity.hpp"
 #include "solvers/graph_components.hpp"
 #include "solvers/petsc_handle.hpp"
+#include "solvers/served_product.hpp"
 #include "src/error.hpp"
 #include "src/seeded_random.hpp"
 
@@ -192,23 +192,22 @@ EigenPairs dense_eigenpairs(const Comm& comm, const CutOperator& op, int count,
     return pairs;
 }
 
-PetscVector to_petsc(const CutOperator& op, Mat matrix, const Eigen::VectorXd& global) {
+PetscVector to_petsc(Mat matrix, const Eigen::VectorXd& global) {
     PetscVector vector;
     check(MatCreateVecs(matrix, vector.out(), nullptr), "MatCreateVecs");
     PetscScalar* values = nullptr;
     check(VecGetArray(vector.get(), &values), "VecGetArray");
-    std::copy_n(global.data() + op.matrix.rows.begin, op.matrix.local_rows(), values);
+    std::copy_n(global.data(), global.size(), values);
     check(VecRestoreArray(vector.get(), &values), "VecRestoreArray");
     return vector;
 }
 
-Eigen::VectorXd gather(const Comm& comm, const CutOperator& op, Vec vector) {
+Eigen::VectorXd to_eigen(Vec vector, Eigen::Index size) {
     const PetscScalar* values = nullptr;
     check(VecGetArrayRead(vector, &values), "VecGetArrayRead");
-    const std::vector<double> global =
-        all_gather(comm, std::span<const double>(values, static_cast<std::size_t>(op.matrix.local_rows())));
+    Eigen::VectorXd copy = Eigen::Map<const Eigen::VectorXd>(values, size);
     check(VecRestoreArrayRead(vector, &values), "VecRestoreArrayRead");
-    return Eigen::Map<const Eigen::VectorXd>(global.data(), static_cast<Eigen::Index>(global.size()));
+    return copy;
 }
 
 /// Another start for every `trial`: the complement of what a start has found holds nothing of the other
@@ -263,28 +262,29 @@ void refuse_unconverged(EPS solver, int wanted, const Progress& progress) {
     if (reason > 0 && converged >= wanted) return;
     char residual[32];
     std::snprintf(residual, sizeof residual, "%.3g", progress.residual);
-    throw AgreedError(ExitCode::not_converged,
+    throw Error(ExitCode::not_converged,
                       "the cut's eigenvectors did not converge: " + std::to_string(converged) + " of " +
                           std::to_string(wanted) + " after " + std::to_string(iterations) +
                           " restarts, the next with residual " + residual +
                           "; give the solver a larger basis (-- -eps_ncv 200)");
 }
 
-/// The `wanted` largest eigenpairs orthogonal to `known`. Collective.
-EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, Mat matrix, const EigenPairs& known,
-                             int wanted, std::uint64_t trial, const SpectralOptions& options) {
+/// On the root alone, while the other ranks serve products: the `wanted` largest eigenpairs orthogonal to `known`.
+EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const EigenPairs& known, int wanted,
+                           std::uint64_t trial, const SpectralOptions& options) {
+    const PetscMatrix matrix = shell_matrix(product);
     std::vector<PetscVector> deflated;
     std::vector<Vec> handles;
     for (Eigen::Index k = 0; k < known.vectors.cols(); ++k) {
-        deflated.push_back(to_petsc(op, matrix, known.vectors.col(k)));
+        deflated.push_back(to_petsc(matrix.get(), known.vectors.col(k)));
         handles.push_back(deflated.back().get());
     }
-    const PetscVector start = to_petsc(op, matrix, start_vector(op, trial));
+    const PetscVector start = to_petsc(matrix.get(), start_vector(op, trial));
     Vec initial = start.get();
     Progress progress;
     EigenSolver solver;
-    check(EPSCreate(comm.raw(), solver.out()), "EPSCreate");
-    configure(solver.get(), matrix, wanted, options, progress);
+    check(EPSCreate(PETSC_COMM_SELF, solver.out()), "EPSCreate");
+    configure(solver.get(), matrix.get(), wanted, options, progress);
     if (!handles.empty()) {
         check(EPSSetDeflationSpace(solver.get(), static_cast<PetscInt>(handles.size()), handles.data()),
               "EPSSetDeflationSpace");
@@ -294,11 +294,36 @@ EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, Mat matrix
     refuse_unconverged(solver.get(), wanted, progress);
     EigenPairs found;
     PetscVector vector;
-    check(MatCreateVecs(matrix, vector.out(), nullptr), "MatCreateVecs");
+    check(MatCreateVecs(matrix.get(), vector.out(), nullptr), "MatCreateVecs");
     for (int k = 0; k < wanted; ++k) {
         PetscScalar value = 0.0;
         check(EPSGetEigenpair(solver.get(), k, &value, nullptr, vector.get(), nullptr), "EPSGetEigenpair");
-        found.append(value, gather(comm, op, vector.get()));
+        found.append(value, to_eigen(vector.get(), static_cast<Eigen::Index>(op.degree.size())));
+    }
+    return found;
+}
+
+/// The same on all ranks, with the root's bits. Collective.
+EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, const SparseRows& matrix,
+                             const EigenPairs& known, int wanted, std::uint64_t trial,
+                             const SpectralOptions& options) {
+    ServedProduct product(comm, matrix);
+    EigenPairs found;
+    // The root lets the others go however its step ends, so nobody waits for a product that does not come.
+    agree(comm, [&] {
+        if (comm.is_root()) {
+            const ServedProduct::Release release(product);
+            found = root_eigenpairs(op, product, known, wanted, trial, options);
+        } else {
+            product.serve();
+        }
+    });
+    found.values.resize(static_cast<std::size_t>(wanted));
+    found.vectors.resize(static_cast<Eigen::Index>(op.degree.size()), wanted);
+    MPI_Bcast(found.values.data(), wanted, MPI_DOUBLE, 0, comm.raw());
+    for (Eigen::Index k = 0; k < wanted; ++k) {
+        MPI_Bcast(found.vectors.col(k).data(), static_cast<int>(found.vectors.rows()), MPI_DOUBLE, 0,
+                  comm.raw());
     }
     return found;
 }
@@ -318,8 +343,8 @@ void sort_descending(EigenPairs& pairs) {
 /// Replaces the smallest pairs by larger ones that the first solve missed, until the complement has none. A
 /// look takes a coarse tolerance, half the work: the error of an eigenvalue is of the order of the squared
 /// residual.
-void find_missed_pairs(const Comm& comm, const CutOperator& op, Mat matrix, const SpectralOptions& options,
-                       EigenPairs& pairs) {
+void find_missed_pairs(const Comm& comm, const CutOperator& op, const SparseRows& matrix,
+                       const SpectralOptions& options, EigenPairs& pairs) {
     SpectralOptions coarse = options;
     coarse.tolerance = std::max(options.tolerance, 1e-5);
     const std::size_t count = pairs.values.size();
@@ -334,13 +359,13 @@ void find_missed_pairs(const Comm& comm, const CutOperator& op, Mat matrix, cons
     }
 }
 
-/// The operator as PETSc has it; the span of the components' vectors is left to deflation.
-PetscMatrix cut_matrix(const Comm& comm, const CutOperator& op, const SpectralOptions& options,
-                       const std::vector<int>& mesh_of) {
-    if (options.mesh_balance <= 0.0) return to_petsc(comm, op.matrix);
+/// The operator to multiply with; the span of the components' vectors is left to deflation.
+SparseRows balanced_matrix(const CutOperator& op, const SpectralOptions& options,
+                           const std::vector<int>& mesh_of) {
+    if (options.mesh_balance <= 0.0) return op.matrix;
     const SparseRows projection = mesh_projection(op, mesh_of);
     const WeightedMatrix terms[] = {{&op.matrix, 1.0}, {&projection, -options.mesh_balance}};
-    return to_petsc(comm, weighted_sum(terms));
+    return weighted_sum(terms);
 }
 
 EigenPairs sparse_eigenpairs(const Comm& comm, const CutOperator& op, int count,
@@ -348,11 +373,11 @@ EigenPairs sparse_eigenpairs(const Comm& comm, const CutOperator& op, int count,
     EigenPairs pairs = options.offset == 0.0 ? component_eigenpairs(op) : EigenPairs{};
     const int wanted = count - static_cast<int>(pairs.values.size());
     if (wanted <= 0) return pairs;
-    const PetscMatrix matrix = cut_matrix(comm, op, options, mesh_of);
-    const EigenPairs found = krylov_eigenpairs(comm, op, matrix.get(), pairs, wanted, 0, options);
+    const SparseRows matrix = balanced_matrix(op, options, mesh_of);
+    const EigenPairs found = krylov_eigenpairs(comm, op, matrix, pairs, wanted, 0, options);
     for (int k = 0; k < wanted; ++k)
         pairs.append(found.values[static_cast<std::size_t>(k)], found.vectors.col(k));
-    if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, matrix.get(), options, pairs);
+    if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, matrix, options, pairs);
     return pairs;
 }
 
