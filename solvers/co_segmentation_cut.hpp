@@ -98,9 +98,8 @@ CutResult described_partition(const std::vector<int>& labels, int parts, const s
 /// Cuts the patches of all meshes into parts.
 ///
 /// Up to one_rank_entries the affinity is gathered on every rank, the different graphs are dealt over the
-/// ranks and each is cut by one rank alone, so that the result has the same bytes on any number of ranks.
-/// Above, all ranks share each eigenvalue problem; labels may then differ between rank counts where patches
-/// lie within rounding of a boundary.
+/// ranks and each is cut by one rank alone. Above, every rank keeps its rows and all share the products of each
+/// eigenvalue problem. The result has the same bytes either way and on any number of ranks.
 ///
 /// Collective. Throws AgreedError: usage (parts out of range), input (nothing to cut), not_converged,
 /// internal. Source: the paper, equation (8), minima rule and normalised cut; Deviates: `links`, adjacency,

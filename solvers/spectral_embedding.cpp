@@ -7,9 +7,9 @@
 #include <numeric>
 #include <string>
 
-#include "solvers/affinity.hpp"
 #include "solvers/graph_components.hpp"
 #include "solvers/petsc_handle.hpp"
+#include "solvers/served_product.hpp"
 #include "src/error.hpp"
 #include "src/seeded_random.hpp"
 
@@ -170,23 +170,22 @@ EigenPairs dense_eigenpairs(const Comm& comm, const CutOperator& op, int count,
     return pairs;
 }
 
-PetscVector to_petsc(const CutOperator& op, Mat matrix, const Eigen::VectorXd& global) {
+PetscVector to_petsc(Mat matrix, const Eigen::VectorXd& global) {
     PetscVector vector;
     check(MatCreateVecs(matrix, vector.out(), nullptr), "MatCreateVecs");
     PetscScalar* values = nullptr;
     check(VecGetArray(vector.get(), &values), "VecGetArray");
-    std::copy_n(global.data() + op.matrix.rows.begin, op.matrix.local_rows(), values);
+    std::copy_n(global.data(), global.size(), values);
     check(VecRestoreArray(vector.get(), &values), "VecRestoreArray");
     return vector;
 }
 
-Eigen::VectorXd gather(const Comm& comm, const CutOperator& op, Vec vector) {
+Eigen::VectorXd to_eigen(Vec vector, Eigen::Index size) {
     const PetscScalar* values = nullptr;
     check(VecGetArrayRead(vector, &values), "VecGetArrayRead");
-    const std::vector<double> global =
-        all_gather(comm, std::span<const double>(values, static_cast<std::size_t>(op.matrix.local_rows())));
+    Eigen::VectorXd copy = Eigen::Map<const Eigen::VectorXd>(values, size);
     check(VecRestoreArrayRead(vector, &values), "VecRestoreArrayRead");
-    return Eigen::Map<const Eigen::VectorXd>(global.data(), static_cast<Eigen::Index>(global.size()));
+    return copy;
 }
 
 /// Another start for every `trial`: the complement of what a start has found holds nothing of the other
@@ -241,28 +240,29 @@ void refuse_unconverged(EPS solver, int wanted, const Progress& progress) {
     if (reason > 0 && converged >= wanted) return;
     char residual[32];
     std::snprintf(residual, sizeof residual, "%.3g", progress.residual);
-    throw AgreedError(ExitCode::not_converged,
-                      "the cut's eigenvectors did not converge: " + std::to_string(converged) + " of " +
-                          std::to_string(wanted) + " after " + std::to_string(iterations) +
-                          " restarts, the next with residual " + residual +
-                          "; give the solver a larger basis (-- -eps_ncv 200)");
+    throw Error(ExitCode::not_converged,
+                "the cut's eigenvectors did not converge: " + std::to_string(converged) + " of " +
+                    std::to_string(wanted) + " after " + std::to_string(iterations) +
+                    " restarts, the next with residual " + residual +
+                    "; give the solver a larger basis (-- -eps_ncv 200)");
 }
 
-/// The `wanted` largest eigenpairs orthogonal to `known`. Collective.
-EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, Mat matrix, const EigenPairs& known,
-                             int wanted, std::uint64_t trial, const SpectralOptions& options) {
+/// On the root alone, while the other ranks serve products: the `wanted` largest eigenpairs orthogonal to `known`.
+EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const EigenPairs& known, int wanted,
+                           std::uint64_t trial, const SpectralOptions& options) {
+    const PetscMatrix matrix = shell_matrix(product);
     std::vector<PetscVector> deflated;
     std::vector<Vec> handles;
     for (Eigen::Index k = 0; k < known.vectors.cols(); ++k) {
-        deflated.push_back(to_petsc(op, matrix, known.vectors.col(k)));
+        deflated.push_back(to_petsc(matrix.get(), known.vectors.col(k)));
         handles.push_back(deflated.back().get());
     }
-    const PetscVector start = to_petsc(op, matrix, start_vector(op, trial));
+    const PetscVector start = to_petsc(matrix.get(), start_vector(op, trial));
     Vec initial = start.get();
     Progress progress;
     EigenSolver solver;
-    check(EPSCreate(comm.raw(), solver.out()), "EPSCreate");
-    configure(solver.get(), matrix, wanted, options, progress);
+    check(EPSCreate(PETSC_COMM_SELF, solver.out()), "EPSCreate");
+    configure(solver.get(), matrix.get(), wanted, options, progress);
     if (!handles.empty()) {
         check(EPSSetDeflationSpace(solver.get(), static_cast<PetscInt>(handles.size()), handles.data()),
               "EPSSetDeflationSpace");
@@ -272,11 +272,35 @@ EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, Mat matrix
     refuse_unconverged(solver.get(), wanted, progress);
     EigenPairs found;
     PetscVector vector;
-    check(MatCreateVecs(matrix, vector.out(), nullptr), "MatCreateVecs");
+    check(MatCreateVecs(matrix.get(), vector.out(), nullptr), "MatCreateVecs");
     for (int k = 0; k < wanted; ++k) {
         PetscScalar value = 0.0;
         check(EPSGetEigenpair(solver.get(), k, &value, nullptr, vector.get(), nullptr), "EPSGetEigenpair");
-        found.append(value, gather(comm, op, vector.get()));
+        found.append(value, to_eigen(vector.get(), static_cast<Eigen::Index>(op.degree.size())));
+    }
+    return found;
+}
+
+/// The same on all ranks, with the root's bits. Collective.
+EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, ServedProduct& product,
+                             const EigenPairs& known, int wanted, std::uint64_t trial,
+                             const SpectralOptions& options) {
+    EigenPairs found;
+    // The root lets the others go however its step ends, so nobody waits for a product that does not come.
+    agree(comm, [&] {
+        if (comm.is_root()) {
+            const ServedProduct::Release release(product);
+            found = root_eigenpairs(op, product, known, wanted, trial, options);
+        } else {
+            product.serve();
+        }
+    });
+    found.values.resize(static_cast<std::size_t>(wanted));
+    found.vectors.resize(static_cast<Eigen::Index>(op.degree.size()), wanted);
+    MPI_Bcast(found.values.data(), wanted, MPI_DOUBLE, 0, comm.raw());
+    for (Eigen::Index k = 0; k < wanted; ++k) {
+        MPI_Bcast(found.vectors.col(k).data(), static_cast<int>(found.vectors.rows()), MPI_DOUBLE, 0,
+                  comm.raw());
     }
     return found;
 }
@@ -296,15 +320,15 @@ void sort_descending(EigenPairs& pairs) {
 /// Replaces the smallest pairs by larger ones that the first solve missed, until the complement has none. A
 /// look takes a coarse tolerance, half the work: the error of an eigenvalue is of the order of the squared
 /// residual.
-void find_missed_pairs(const Comm& comm, const CutOperator& op, Mat matrix, const SpectralOptions& options,
-                       EigenPairs& pairs) {
+void find_missed_pairs(const Comm& comm, const CutOperator& op, ServedProduct& product,
+                       const SpectralOptions& options, EigenPairs& pairs) {
     SpectralOptions coarse = options;
     coarse.tolerance = std::max(options.tolerance, 1e-5);
     const std::size_t count = pairs.values.size();
     for (std::size_t round = 0; round < count; ++round) {
-        const EigenPairs look = krylov_eigenpairs(comm, op, matrix, pairs, 1, round + 1, coarse);
+        const EigenPairs look = krylov_eigenpairs(comm, op, product, pairs, 1, round + 1, coarse);
         if (look.values[0] <= pairs.values.back() + 1e-8) return;
-        const EigenPairs next = krylov_eigenpairs(comm, op, matrix, pairs, 1, round + 1, options);
+        const EigenPairs next = krylov_eigenpairs(comm, op, product, pairs, 1, round + 1, options);
         pairs.append(next.values[0], next.vectors.col(0));
         sort_descending(pairs);
         pairs.values.resize(count);
@@ -312,77 +336,24 @@ void find_missed_pairs(const Comm& comm, const CutOperator& op, Mat matrix, cons
     }
 }
 
-/// The operator less tau Q Q^T, Q the meshes' indicators, without forming Q Q^T: it would have an entry for every two
-/// patches of a mesh, more than the affinity itself. The span of the components' vectors is left to deflation.
-struct BalancedMatrix {
-    const Comm& comm;
-    PetscMatrix sparse;
-    double tau = 0.0;
-    std::vector<int> mesh = {};          ///< of this rank's rows
-    std::vector<double> indicator = {};  ///< likewise
-    std::vector<double> shares = {};     ///< Q^T x, per mesh
-    PetscMatrix shell = {};
-};
-
-PetscErrorCode multiply_balanced(Mat shell, Vec x, Vec y) {
-    BalancedMatrix* balanced = nullptr;
-    const PetscScalar* from = nullptr;
-    PetscScalar* to = nullptr;
-    PetscCall(MatShellGetContext(shell, &balanced));
-    PetscCall(MatMult(balanced->sparse.get(), x, y));
-    std::fill(balanced->shares.begin(), balanced->shares.end(), 0.0);
-    PetscCall(VecGetArrayRead(x, &from));
-    for (std::size_t r = 0; r < balanced->mesh.size(); ++r)
-        balanced->shares[static_cast<std::size_t>(balanced->mesh[r])] += balanced->indicator[r] * from[r];
-    PetscCall(VecRestoreArrayRead(x, &from));
-    if (balanced->comm.size() > 1) {
-        MPI_Allreduce(MPI_IN_PLACE, balanced->shares.data(), static_cast<int>(balanced->shares.size()),
-                      MPI_DOUBLE, MPI_SUM, balanced->comm.raw());
-    }
-    PetscCall(VecGetArray(y, &to));
-    for (std::size_t r = 0; r < balanced->mesh.size(); ++r) {
-        to[r] -= balanced->tau * balanced->indicator[r] *
-                 balanced->shares[static_cast<std::size_t>(balanced->mesh[r])];
-    }
-    PetscCall(VecRestoreArray(y, &to));
-    return 0;
+/// Only the root's product needs it; the span of the components' vectors is left to deflation.
+GroupBalance mesh_balance(const CutOperator& op, const SpectralOptions& options,
+                          const std::vector<int>& mesh_of) {
+    if (options.mesh_balance <= 0.0) return {};
+    return {options.mesh_balance, mesh_of, mesh_indicators(op, mesh_of)};
 }
 
-void balance(const CutOperator& op, const std::vector<int>& mesh_of, BalancedMatrix& balanced) {
-    const std::vector<double> indicator = mesh_indicators(op, mesh_of);
-    const auto begin = op.matrix.rows.begin;
-    const auto end = op.matrix.rows.end;
-    balanced.mesh.assign(mesh_of.begin() + begin, mesh_of.begin() + end);
-    balanced.indicator.assign(indicator.begin() + begin, indicator.begin() + end);
-    balanced.shares.resize(static_cast<std::size_t>(*std::max_element(mesh_of.begin(), mesh_of.end())) + 1);
-    const auto rows = petsc_int(op.matrix.local_rows(), "rows of the affinity");
-    const auto size = petsc_int(op.matrix.size, "patches");
-    check(MatCreateShell(balanced.comm.raw(), rows, rows, size, size, &balanced, balanced.shell.out()),
-          "MatCreateShell");
-    check(MatShellSetOperation(balanced.shell.get(), MATOP_MULT,
-                               reinterpret_cast<void (*)()>(multiply_balanced)),
-          "MatShellSetOperation");
-}
-
-/// PETSc has a copy of its own.
-void release_entries(SparseRows& matrix) {
-    matrix.columns = {};
-    matrix.values = {};
-}
-
-EigenPairs sparse_eigenpairs(const Comm& comm, CutOperator& op, int count, const SpectralOptions& options,
-                             const std::vector<int>& mesh_of) {
+EigenPairs sparse_eigenpairs(const Comm& comm, const CutOperator& op, int count,
+                             const SpectralOptions& options, const std::vector<int>& mesh_of) {
     EigenPairs pairs = options.offset == 0.0 ? component_eigenpairs(op) : EigenPairs{};
     const int wanted = count - static_cast<int>(pairs.values.size());
     if (wanted <= 0) return pairs;
-    BalancedMatrix balanced{.comm = comm, .sparse = to_petsc(comm, op.matrix), .tau = options.mesh_balance};
-    release_entries(op.matrix);
-    if (options.mesh_balance > 0.0) balance(op, mesh_of, balanced);
-    Mat matrix = options.mesh_balance > 0.0 ? balanced.shell.get() : balanced.sparse.get();
-    const EigenPairs found = krylov_eigenpairs(comm, op, matrix, pairs, wanted, 0, options);
+    ServedProduct product(comm, op.matrix,
+                          comm.is_root() ? mesh_balance(op, options, mesh_of) : GroupBalance{});
+    const EigenPairs found = krylov_eigenpairs(comm, op, product, pairs, wanted, 0, options);
     for (int k = 0; k < wanted; ++k)
         pairs.append(found.values[static_cast<std::size_t>(k)], found.vectors.col(k));
-    if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, matrix, options, pairs);
+    if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, product, options, pairs);
     return pairs;
 }
 
@@ -410,7 +381,7 @@ SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinit
         throw AgreedError(ExitCode::internal,
                           "a balance of meshes needs a mesh for each patch and no offset");
     }
-    CutOperator op = cut_operator(comm, affinity, parts, options.offset);
+    const CutOperator op = cut_operator(comm, affinity, parts, options.offset);
     const int vectors = std::min(count, static_cast<int>(op.rows.size()));
     const EigenPairs pairs = affinity.size <= dense_rows
                                  ? dense_eigenpairs(comm, op, vectors, options, mesh_of)

@@ -40,8 +40,8 @@ inline constexpr int dense_rows = 128;
 /// constant on each mesh thus loses tau, one whose mean over each mesh is 0 loses nothing. `mesh_of`: mesh 0 .. M-1
 /// of each patch; it may be empty where tau is 0.
 ///
-/// All ranks of `comm` share the work and all return the same. With one rank the result is a function of the
-/// affinity alone; with more, sums are rounded differently and the last digits depend on their number.
+/// The ranks of `comm` share the products with the affinity, of which each holds its rows; the Krylov method itself runs
+/// on the root. The result is a function of the affinity alone, the same bytes on any number of ranks.
 /// Collective. Throws on all ranks: AgreedError(not_converged) with the residual reached, AgreedError(input)
 /// where no two patches have an affinity or fewer than `parts` patches take part. Source: Shi and Malik 2000;
 /// the code of Cour, Yu and Shi, which the paper used. Deviates: rows set aside, mesh_balance.
