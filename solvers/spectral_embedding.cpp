@@ -263,10 +263,10 @@ void refuse_unconverged(EPS solver, int wanted, const Progress& progress) {
     char residual[32];
     std::snprintf(residual, sizeof residual, "%.3g", progress.residual);
     throw Error(ExitCode::not_converged,
-                      "the cut's eigenvectors did not converge: " + std::to_string(converged) + " of " +
-                          std::to_string(wanted) + " after " + std::to_string(iterations) +
-                          " restarts, the next with residual " + residual +
-                          "; give the solver a larger basis (-- -eps_ncv 200)");
+                "the cut's eigenvectors did not converge: " + std::to_string(converged) + " of " +
+                    std::to_string(wanted) + " after " + std::to_string(iterations) +
+                    " restarts, the next with residual " + residual +
+                    "; give the solver a larger basis (-- -eps_ncv 200)");
 }
 
 /// On the root alone, while the other ranks serve products: the `wanted` largest eigenpairs orthogonal to `known`.

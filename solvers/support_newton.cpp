@@ -73,8 +73,9 @@ void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weig
         for (Eigen::Index k = 0; k < count; ++k) {
             const std::size_t at = block.places[static_cast<std::size_t>(k)];
             const int row = fits_[c].rows[(at - offset_[c]) / features];
-            std::copy_n(stack_.feature(static_cast<int>(h)) + static_cast<std::int64_t>(row) * stack_.dimension,
-                        columns.rows(), columns.col(k).data());
+            std::copy_n(
+                stack_.feature(static_cast<int>(h)) + static_cast<std::int64_t>(row) * stack_.dimension,
+                columns.rows(), columns.col(k).data());
             const double along = weights[at] * inverse_norm_[at / features];
             curvature[k] = 2.0 * problem_.lambda +
                            problem_.alpha * inverse_norm_[at / features] * std::max(1.0 - along * along, 0.0);

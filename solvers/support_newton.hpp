@@ -53,8 +53,8 @@ class SupportNewton {
     const std::vector<ColumnFit>& fits_;
     const std::vector<std::size_t>& offset_;
     RowExchange& exchange_;
-    std::vector<Block> blocks_;          ///< H a column
-    std::vector<double> inverse_norm_;   ///< of each pair's group; 0 where the group is
+    std::vector<Block> blocks_;         ///< H a column
+    std::vector<double> inverse_norm_;  ///< of each pair's group; 0 where the group is
     std::vector<double> by_row_;
     std::vector<double> row_part_;
     std::vector<double> direction_, residual_, preconditioned_, search_, image_;

@@ -70,8 +70,7 @@ TrialPoint WorkingSetModel::evaluate_forward() {
 double WorkingSetModel::newton_step() {
     for (std::size_t at = 0; at < forward_.size(); ++at)
         forward_[at] = 2.0 * (current_.product[at] - linear_[at]);
-    const std::vector<double>& direction =
-        newton_.direction(current_.weights, forward_, current_.row_sums);
+    const std::vector<double>& direction = newton_.direction(current_.weights, forward_, current_.row_sums);
     double size = 1.0;
     for (int halving = 0; halving < newton_halvings; ++halving, size *= 0.5) {
         for (std::size_t at = 0; at < forward_.size(); ++at)
