@@ -115,23 +115,4 @@ SparseRows overlap_affinity(BlockRange range, const std::vector<OverlapRelation>
     return rows_from_entries(size, range, std::move(entries));
 }
 
-PetscMatrix to_petsc(const Comm& comm, const SparseRows& matrix) {
-    const auto rows = petsc_int(matrix.local_rows(), "rows of the affinity");
-    const auto size = petsc_int(matrix.size, "patches");
-    petsc_int(static_cast<std::int64_t>(matrix.values.size()), "affinities of one rank");
-    std::vector<PetscInt> offsets(matrix.offsets.begin(), matrix.offsets.end());
-    static_assert(std::is_same_v<PetscInt, int>, "columns are handed over as they are");
-    PetscMatrix result;
-    check(MatCreate(comm.raw(), result.out()), "MatCreate");
-    check(MatSetSizes(result.get(), rows, rows, size, size), "MatSetSizes");
-    check(MatSetType(result.get(), MATAIJ), "MatSetType");
-    check(MatSeqAIJSetPreallocationCSR(result.get(), offsets.data(), matrix.columns.data(),
-                                       matrix.values.data()),
-          "MatSeqAIJSetPreallocationCSR");
-    check(MatMPIAIJSetPreallocationCSR(result.get(), offsets.data(), matrix.columns.data(),
-                                       matrix.values.data()),
-          "MatMPIAIJSetPreallocationCSR");
-    return result;
-}
-
 }  // namespace coseg

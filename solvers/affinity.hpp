@@ -5,7 +5,6 @@
 
 #include "solvers/coefficients.hpp"
 #include "solvers/patch_links.hpp"
-#include "solvers/petsc_handle.hpp"
 #include "solvers/sparse_rows.hpp"
 #include "src/comm.hpp"
 
@@ -35,9 +34,5 @@ SparseRows adjacency_affinity(BlockRange range, const std::vector<PatchRelation>
 /// `size`. Deviates: the paper has one over-segmentation a mesh.
 SparseRows overlap_affinity(BlockRange range, const std::vector<OverlapRelation>& overlaps,
                             std::int64_t size);
-
-/// The same matrix in PETSc's form, rows as they are owned. Collective over `comm`.
-/// Throws Error(internal) where a rank holds more entries than PETSc can number.
-PetscMatrix to_petsc(const Comm& comm, const SparseRows& matrix);
 
 }  // namespace coseg

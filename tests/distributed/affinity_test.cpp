@@ -77,23 +77,6 @@ TEST_P(Affinity, HasTheSameBitsAsOnOneRank) {
     EXPECT_EQ(shared.values, alone.values);
 }
 
-TEST_P(Affinity, PetscMultipliesAsTheRowsDo) {
-    const Comm comm(MPI_COMM_WORLD);
-    const Comm self(MPI_COMM_SELF);
-    const SparseRows mine = symmetric_affinity(comm, random_coefficients(comm, GetParam(), 2, 8, 7));
-    const std::vector<double> sums = row_sums(mine);
-    const PetscMatrix matrix = to_petsc(comm, mine);
-    PetscVector ones;
-    PetscVector product;
-    check(MatCreateVecs(matrix.get(), ones.out(), product.out()), "MatCreateVecs");
-    check(VecSet(ones.get(), 1.0), "VecSet");
-    check(MatMult(matrix.get(), ones.get(), product.get()), "MatMult");
-    const PetscScalar* values = nullptr;
-    check(VecGetArrayRead(product.get(), &values), "VecGetArrayRead");
-    for (std::size_t r = 0; r < sums.size(); ++r) EXPECT_NEAR(values[r], sums[r], 1e-12);
-    check(VecRestoreArrayRead(product.get(), &values), "VecRestoreArrayRead");
-}
-
 // 5 and 32: one rank owns everything; 33 and 70: uneven tiles; 301: several tiles on each of 4 ranks.
 INSTANTIATE_TEST_SUITE_P(Sizes, Affinity, testing::Values(5, 32, 33, 70, 301));
 

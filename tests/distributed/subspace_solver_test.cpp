@@ -177,6 +177,19 @@ TEST_P(UglyProblem, ScalesOfManyOrders) {
     }
 }
 
+TEST(SubspaceSolver, SmallPenaltiesAreSolvedToTheLastDigits) {
+    // More columns than rows: the Gram matrices of the columns' supports are close to singular.
+    SubspaceProblem problem = random_subspace_problem(2, 20, 60, 6, 43);
+    for (const double lambda : {0.0, 1e-3, 0.01, 0.1}) {
+        problem.lambda = lambda;
+        problem.alpha = problem.beta = 0.01;
+        const SolveResult result = expect_same_on_any_ranks(problem, precise("working-set"));
+        EXPECT_EQ(result.reason, StopReason::gap_reached) << lambda;
+        EXPECT_LE(result.relative_gap, 1e-8) << lambda;
+        EXPECT_LT(result.iterations, 3000) << lambda;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, UglyProblem, testing::Values("dense", "working-set"));
 
 TEST(SubspaceSolver, OracleProblems) {
