@@ -7,8 +7,9 @@
 
 namespace coseg {
 
-/// Weight of adjacency and overlap against links, in the graph that labels spread over; from .25 to 4 accuracies
-/// (bench/assign.py) change by less than a point but on one shape.
+/// Weight of adjacency and overlap against links, in the graph that labels spread over. From .25 to 4 the mean accuracies
+/// of the shapes that bench/assign.py leaves out of chairs, aeroplanes and pliers move by at most 1.8 points; of single
+/// shapes chair 12 moves most, from 87.6 to 99.0.
 inline constexpr double assign_bonds = 1.0;
 
 struct Assigned {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/name_file.hpp"
 #include "mpi_drivers/command.hpp"
 #include "mpi_drivers/finished_shapes.hpp"
 #include "mpi_drivers/sheet_kinds.hpp"
@@ -21,6 +22,7 @@ namespace {
 struct RenderOptions {
     FinishedInput input;
     std::vector<std::string> kinds = {"parts"};
+    std::string names;
     std::string out;
     ViewChoice view;
 };
@@ -30,6 +32,20 @@ bool needs_truth(const std::vector<std::string>& kinds) {
                        [](const std::string& kind) { return kind == "truth" || kind == "errors"; });
 }
 
+/// --names, else what lies beside the known labels, else none. Collective; throws AgreedError(input).
+LabelNames chosen_names(const Comm& world, const RenderOptions& options) {
+    LabelNames names;
+    agree(world, [&] {
+        const std::string beside = options.input.truth + "/labels.txt";
+        if (!options.names.empty()) {
+            names = read_names(options.names);
+        } else if (!options.input.truth.empty() && std::filesystem::exists(beside)) {
+            names = read_names(beside);
+        }
+    });
+    return names;
+}
+
 /// Collective over the invocation's ranks.
 void render(const RenderOptions& options, const Comm& world) {
     if (needs_truth(options.kinds) && options.input.truth.empty())
@@ -37,8 +53,8 @@ void render(const RenderOptions& options, const Comm& world) {
                           "truth and errors need the folder of the known labels: --truth DIR");
     const FinishedRun run = read_run(world, options.input.folder);
     const std::vector<LabelledMesh> shapes = read_shapes(world, run, options.input);
-    std::vector<int> label_of_part;
-    if (needs_truth(options.kinds)) label_of_part = agree_on_truth(world, shapes, run.parts);
+    PartKey key{{}, chosen_names(world, options)};
+    if (!options.input.truth.empty()) key.label_of_part = agree_on_truth(world, shapes, run.parts);
     const std::string out = options.out.empty() ? options.input.folder : options.out;
     agree(world, [&] {
         std::error_code cause;
@@ -46,7 +62,7 @@ void render(const RenderOptions& options, const Comm& world) {
         if (cause) throw Error(ExitCode::output, out + ": cannot be made (" + cause.message() + ")");
     });
     for (const std::string& kind : options.kinds) {
-        const DrawnKind drawn = drawn_kind(world, run, shapes, kind, label_of_part);
+        const DrawnKind drawn = drawn_kind(world, run, shapes, kind, key);
         const View view = agree_on_view(world, drawn.shapes, options.view);
         const std::vector<std::string> files = write_sheets(
             world, out, {kind, drawn.heading, view}, drawn.shapes, static_cast<int>(run.shapes.size()));
@@ -70,7 +86,11 @@ Command add_render_command(CLI::App& parent) {
         ->check(CLI::IsMember(sheet_kinds()))
         ->type_name("KIND,...");
     app->add_option("--truth", options->input.truth,
-                    "Folder of known labels, NAME.seg: for truth and errors");
+                    "Folder of known labels, NAME.seg: for truth and errors, and to name the parts");
+    app->add_option("--names", options->names,
+                    "Names for the legend, one a line or `NUMBER NAME`: of the known labels, or of the parts "
+                    "without --truth; labels.txt in the folder of --truth if not given")
+        ->type_name("FILE");
     app->add_option("--meshes", options->input.meshes,
                     "Where the meshes are now, if not where the run found them: files, folders or @LIST")
         ->type_name("MESH|DIRECTORY|@LIST");

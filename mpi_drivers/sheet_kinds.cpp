@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <set>
 
 #include "io/part_colors.hpp"
 #include "src/color_scale.hpp"
@@ -53,6 +54,51 @@ std::vector<Color> truth_colors(const LabelledMesh& shape, const std::vector<int
         if (shape.truth[f] >= 0) colors[f] = part_color(parts[static_cast<std::size_t>(shape.truth[f])]);
     }
     return colors;
+}
+
+/// Labels that occur on any rank, ascending. Collective.
+std::vector<int> labels_in_truth(const Comm& comm, const std::vector<LabelledMesh>& shapes) {
+    std::set<int> local;
+    for (const LabelledMesh& shape : shapes) local.insert(shape.truth.begin(), shape.truth.end());
+    const std::vector<int> sent(local.lower_bound(0), local.end());
+    const std::vector<int> all = all_gather(comm, std::span<const int>(sent));
+    const std::set<int> distinct(all.begin(), all.end());
+    return {distinct.begin(), distinct.end()};
+}
+
+/// "seat (label 1)", or "label 1" where it has no name.
+std::string label_text(const LabelNames& names, int label) {
+    const std::string number = "label " + std::to_string(label);
+    const auto name = names.find(label);
+    return name == names.end() ? number : name->second + " (" + number + ")";
+}
+
+/// A swatch for each part, then one for each label that no part stands for.
+std::vector<LegendEntry> truth_legend(const PartKey& key, const std::vector<int>& labels) {
+    std::vector<LegendEntry> legend;
+    for (std::size_t p = 0; p < key.label_of_part.size(); ++p) {
+        const int label = key.label_of_part[p];
+        legend.push_back(
+            {part_color(static_cast<int>(p)),
+             (label < 0 ? "no label" : label_text(key.names, label)) + " as part " + std::to_string(p)});
+    }
+    const std::vector<int> parts = part_of_label(key.label_of_part, labels.empty() ? 0 : labels.back() + 1);
+    const int count = static_cast<int>(key.label_of_part.size());
+    for (const int label : labels) {
+        const int part = parts[static_cast<std::size_t>(label)];
+        if (part >= count) legend.push_back({part_color(part), label_text(key.names, label) + ", no part"});
+    }
+    return legend;
+}
+
+/// "part 0  42.0 %" becomes "part 0  seat  42.0 %".
+void name_parts(std::vector<LegendEntry>& legend, const std::vector<double>& part_area, const PartKey& key) {
+    for (std::size_t p = 0; p < legend.size(); ++p) {
+        const int label = key.label_of_part.empty() ? static_cast<int>(p) : key.label_of_part[p];
+        const auto name = key.names.find(label);
+        const std::string middle = name == key.names.end() ? "" : name->second + "  ";
+        legend[p].text = "part " + std::to_string(p) + "  " + middle + fixed(100.0 * part_area[p], 1) + " %";
+    }
 }
 
 DrawnShape drawn_errors(const LabelledMesh& shape, const std::vector<int>& label_of_part) {
@@ -164,22 +210,20 @@ std::vector<Color> colors_of(const std::vector<int>& labels) {
 }
 
 DrawnKind drawn_kind(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
-                     const std::string& kind, const std::vector<int>& label_of_part) {
+                     const std::string& kind, const PartKey& key) {
     const auto feature = std::find(feature_names.begin(), feature_names.end(), kind);
     if (feature != feature_names.end())
         return drawn_descriptor(comm, run, shapes, static_cast<std::size_t>(feature - feature_names.begin()));
     DrawnKind result;
     result.heading = parts_heading(run.part_area, static_cast<int>(run.shapes.size()));
-    if (kind == "patches") {
+    if (kind == "parts") {
+        name_parts(result.heading.legend, run.part_area, key);
+    } else if (kind == "patches") {
         result.heading.title = "patches";
         result.heading.legend.clear();
     } else if (kind == "truth") {
         result.heading.title = "truth";
-        for (std::size_t p = 0; p < result.heading.legend.size(); ++p) {
-            const int label = label_of_part[p];
-            result.heading.legend[p].text =
-                label < 0 ? "no label" : "label " + std::to_string(label) + " as part " + std::to_string(p);
-        }
+        result.heading.legend = truth_legend(key, labels_in_truth(comm, shapes));
     } else if (kind == "errors") {
         result.heading.title = "errors";
         result.heading.legend = {{right, "right"}, {wrong, "wrong"}, {without_truth, "no truth"}};
@@ -187,9 +231,9 @@ DrawnKind drawn_kind(const Comm& comm, const FinishedRun& run, const std::vector
     agree(comm, [&] {
         for (const LabelledMesh& shape : shapes) {
             if (kind == "truth") {
-                result.shapes.push_back(drawn(shape, truth_colors(shape, label_of_part)));
+                result.shapes.push_back(drawn(shape, truth_colors(shape, key.label_of_part)));
             } else if (kind == "errors") {
-                result.shapes.push_back(drawn_errors(shape, label_of_part));
+                result.shapes.push_back(drawn_errors(shape, key.label_of_part));
             } else {
                 result.shapes.push_back(
                     drawn(shape, colors_of(kind == "patches" ? shape.patch : shape.part)));

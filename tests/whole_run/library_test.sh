@@ -31,3 +31,34 @@ grep -q "Depends: .*petsc" "$work/info" || fail "the package does not depend on 
 dpkg-deb --extract "$work"/pack/coseg_*.deb "$work/root"
 "$work/root/usr/bin/coseg" --version | grep -q "^coseg " || fail "the packaged program"
 echo "ok: the Debian package"
+
+# dpkg installs it into a tree that shares the machine's list of packages, so that dependencies are checked and nothing
+# of the machine is changed.
+(($(id -u) == 0)) || { echo "skipped in part: dpkg installs for root only"; exit 0; }
+tree=$work/tree
+database=$tree/var/lib/dpkg
+mkdir -p "$database/info" "$database/updates" "$database/triggers"
+# A coseg that the machine has is no part of the tree.
+awk -v RS= -v ORS='\n\n' '!/^Package: coseg\n/' /var/lib/dpkg/status >"$database/status"
+find /var/lib/dpkg/info -name '*.list' ! -name 'coseg.list' -exec cp -t "$database/info" {} +
+echo 1 >"$database/info/format"
+in_tree() { dpkg --root="$tree" --log="$work/dpkg.log" --force-script-chrootless "$@" >"$work/log" 2>&1; }
+in_tree --install "$work"/pack/coseg_*.deb || { cat "$work/log" >&2; fail "dpkg --install"; }
+installed=$tree/usr/bin/coseg
+"$installed" --version | grep -q "^coseg " || fail "the installed package's program"
+# A machine without manual pages has no man; the page's own text is then looked at.
+if command -v man >/dev/null; then
+    MANPAGER="cat" man --local-file "$tree/usr/share/man/man1/coseg.1" >"$work/page" 2>/dev/null || fail "the manual page"
+else
+    cp "$tree/usr/share/man/man1/coseg.1" "$work/page"
+fi
+grep -q "over-segment\|oversegmentations" "$work/page" || fail "the manual page lists no options"
+"$installed" generate table --count 3 --faces 2000 --out "$work/tables" >"$work/log"
+"$installed" run --quiet --parts 2 --patches 20 --oversegmentations 1 --geodesic-samples 40 --no-choose \
+    --out "$work/tables_result" "$work/tables/meshes" || fail "a run of the installed package"
+[[ $(wc -l <"$work/tables_result/labels/table_0002.seg") -eq $(wc -l <"$work/tables/truth/table_0002.seg") ]] ||
+    fail "the labels of the installed package"
+in_tree --remove coseg || { cat "$work/log" >&2; fail "dpkg --remove"; }
+left=$(find "$tree" -path "$database" -prune -o ! -type d -print)
+[[ -z $left && ! -e $tree/usr ]] || fail "dpkg --remove leaves $left in $(ls "$tree")"
+echo "ok: installed by dpkg, run and removed"

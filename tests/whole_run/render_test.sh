@@ -15,7 +15,8 @@ echo "ok: the same sheet on 1 and 3 ranks"
 kinds=parts,patches,truth,errors,gaussian_curvature,shape_diameter,average_geodesic,shape_context,conformal_factor
 ranks 2 "$COSEG" render "$work/r1" --what "$kinds" --truth "$work/set/truth" --out "$work/sheets" >"$work/out"
 [[ $(wc -l <"$work/out") -eq 9 ]] || fail "render names $(wc -l <"$work/out") files, not 9"
-cmp "$work/r1/contact_sheet.png" "$work/sheets/contact_sheet.png" || fail "render draws another sheet than the run"
+"$COSEG" render "$work/r1" --out "$work/plain" >"$work/out"
+cmp "$work/r1/contact_sheet.png" "$work/plain/contact_sheet.png" || fail "render draws another sheet than the run"
 python3 - "$work/sheets" <<'END' || fail "kinds of sheets"
 import glob, struct, sys, zlib
 pictures = {}
@@ -28,6 +29,26 @@ for path in glob.glob(sys.argv[1] + "/*.png"):
 assert len(set(pictures.values())) == 9, "two kinds give the same picture"
 END
 echo "ok: nine kinds"
+
+# Names change the legend and nothing below it: those beside the truth are taken, the same given by --names give the same bytes.
+sheets_of() { # sheets_of OUT ARGUMENT... : the sheets of parts and truth
+    ranks 2 "$COSEG" render "$work/r1" --what parts,truth --out "$work/$1" "${@:2}" >"$work/out"
+}
+cp -r "$work/set/truth" "$work/unnamed" && rm "$work/unnamed/labels.txt"
+awk '{ $1 = ""; print }' "$work/set/truth/labels.txt" >"$work/names.txt"
+sheets_of nameless --truth "$work/unnamed"
+sheets_of named --truth "$work/unnamed" --names "$work/names.txt"
+for file in contact_sheet.png contact_sheet_truth.png; do
+    cmp "$work/named/$file" "$work/sheets/$file" || fail "--names draws another $file than labels.txt beside the truth"
+    cmp --quiet "$work/named/$file" "$work/nameless/$file" && fail "$file has no names"
+done
+cmp "$work/nameless/contact_sheet.png" "$work/r1/contact_sheet.png" || fail "the truth changes a sheet of parts without names"
+"$COSEG" render "$work/r1" --names "$work/names.txt" --out "$work/named" >"$work/out"
+cmp --quiet "$work/named/contact_sheet.png" "$work/r1/contact_sheet.png" && fail "names of parts without truth are not drawn"
+echo "ok: names"
+printf '0 top\n0 leg\n' >"$work/twice.txt"
+refuses "a label named twice" 3 "twice.txt:2: label 0 has a name already" ranks 2 "$COSEG" render "$work/r1" --names "$work/twice.txt"
+refuses "names that are gone" 3 "gone.txt" "$COSEG" render "$work/r1" --names "$work/gone.txt"
 
 for number in $(seq 10 72); do cp "$work/set/meshes/table_0000.off" "$work/set/meshes/t_$number.off"; done
 python3 - "$work" <<'END'
