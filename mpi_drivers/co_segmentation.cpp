@@ -223,6 +223,30 @@ ReportState summarised(const Comm& comm, const RunState& state, const Journals& 
     return summary;
 }
 
+PatchFeatures feature_stage(const Comm& comm, Collection& collection, const RunOptions& options,
+                            StageLog& log) {
+    log.begin("features");
+    PatchFeatures features = patch_features(comm, collection, options);
+    log.end(with_unit(static_cast<std::int64_t>(features.histograms.size()), "feature", "features") + " of " +
+            std::to_string(options.bins) + " bins");
+    return features;
+}
+
+void picture_and_page(const Comm& comm, const ResultFolder& folder, const RunOutcome& run, StageLog& log) {
+    if (run.options.sheet) {
+        log.begin("picture");
+        write_run_sheet(comm, folder, run.collection, run.labels, run.options);
+        log.end(run.options.out + "/contact_sheet.png");
+    }
+    write_run_report(comm, folder, run, log);
+    if (run.options.html && can_write_report_page()) {
+        log.begin("page");
+        write_html_report(comm, {folder.staging(), {}, ""}, folder.staging(),
+                          {run.options.view, run.options.up});
+        log.end(run.options.out + "/report.html");
+    }
+}
+
 }  // namespace
 
 void co_segment(const Comm& comm, const RunOptions& options,
@@ -248,13 +272,8 @@ void co_segment(const Comm& comm, const RunOptions& options,
 
     Collection collection = describe_stage(comm, options, state ? &*state : nullptr, log);
 
-    log.begin("features");
-    PatchFeatures features = patch_features(comm, collection, options);
-    log.end(with_unit(static_cast<std::int64_t>(features.histograms.size()), "feature", "features") + " of " +
-            std::to_string(options.bins) + " bins");
-
+    PatchFeatures features = feature_stage(comm, collection, options, log);
     if (options.keep_features) write_features(comm, collection, features, folder.staging() + "/features.h5");
-
     if (state) state->end_if_asked(comm, "all meshes");
 
     std::optional<Journals> journals;
@@ -284,19 +303,9 @@ void co_segment(const Comm& comm, const RunOptions& options,
         write_run_model(comm, folder.staging() + "/" + model_file, collection, features, model,
                         cut.part_of_patch, options);
     log.end(options.out);
-    if (options.sheet) {
-        log.begin("picture");
-        write_run_sheet(comm, folder, collection, labels, options);
-        log.end(options.out + "/contact_sheet.png");
-    }
-    write_run_report(comm, folder,
+    picture_and_page(comm, folder,
                      {collection, features, optimisation, cut, labels, options, resolved, state_summary},
                      log);
-    if (options.html && can_write_report_page()) {
-        log.begin("page");
-        write_html_report(comm, {folder.staging(), {}, ""}, folder.staging(), {options.view, options.up});
-        log.end(options.out + "/report.html");
-    }
     if (options.profile) write_profile(comm, folder.staging(), options, log);
     folder.commit(comm);
 }
