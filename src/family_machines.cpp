@@ -51,7 +51,7 @@ void add_airplane_tail(ImplicitShape& shape, SeededStream& random, double r, boo
     const Vector3d foot(-0.42, 0, 0.25 * r);
     const Vector3d fin_foot = foot + Vector3d(0, 0, 0.3 * chord);
     const Vector3d top = foot + Vector3d(-lean, 0, height);
-    shape.add(2, 0.018,
+    shape.add(4, 0.018,
               flat_chain({ball(fin_foot, 0.5 * chord), ball(top, 0.38 * chord)}, Vector3d::UnitY(), 3.2));
     const Vector3d root = high ? Vector3d(top + Vector3d(-0.01, 0, 0)) : foot;
     const Vector3d tip =

@@ -19,7 +19,7 @@ ImplicitShape make_goblet(SeededStream& random, int index);     // bowl, stem, b
 ImplicitShape make_table(SeededStream& random, int index);      // top, leg
 ImplicitShape make_chair(SeededStream& random, int index);      // seat, leg, back
 ImplicitShape make_lamp(SeededStream& random, int index);       // base, pole, shade
-ImplicitShape make_airplane(SeededStream& random, int index);   // fuselage, wing, tail, engine
+ImplicitShape make_airplane(SeededStream& random, int index);   // fuselage, wing, stabilizer, engine, fin
 ImplicitShape make_pliers(SeededStream& random, int index);     // jaw, joint, handle
 ImplicitShape make_quadruped(SeededStream& random, int index);  // body, head, leg, tail
 ImplicitShape make_human(SeededStream& random, int index);      // head, torso, arm, leg

@@ -35,7 +35,7 @@ const std::vector<Recipe>& recipes() {
         {{"lamp", "standing lamps, goose necks and jointed arms", {"base", "pole", "shade"}}, make_lamp},
         {{"airplane",
           "straight and swept wings, T-tails, no engines to four",
-          {"fuselage", "wing", "tail", "engine"}},
+          {"fuselage", "wing", "stabilizer", "engine", "fin"}},
          make_airplane},
         {{"pliers", "broad and slender jaws, opened by various angles", {"jaw", "joint", "handle"}},
          make_pliers},

@@ -130,6 +130,7 @@ TEST(ShapeFamilies, PartsAreCountedAsTheRecipeSays) {
     EXPECT_EQ(piece_count(generate_shape("airplane", 5, 0, 3000), 3), 2);
     EXPECT_EQ(piece_count(generate_shape("airplane", 5, 1, 3000), 3), 0);
     EXPECT_EQ(piece_count(generate_shape("airplane", 5, 2, 3000), 3), 4);
+    EXPECT_EQ(piece_count(generate_shape("airplane", 5, 0, 3000), 4), 1);  // the fin
 }
 
 TEST(ShapeFamilies, UnknownNamesAreAnsweredWithTheNearest) {
