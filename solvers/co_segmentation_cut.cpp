@@ -327,9 +327,9 @@ void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& 
     result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
 }
 
-/// K, K+1, K+2, 2K, 3K without repetition.
+/// K, K+1, K+2, 2K, 2.5K rounded down, 3K without repetition.
 std::vector<int> cluster_counts(int parts) {
-    std::vector<int> clusters = {parts, parts + 1, parts + 2, 2 * parts, 3 * parts};
+    std::vector<int> clusters = {parts, parts + 1, parts + 2, 2 * parts, 5 * parts / 2, 3 * parts};
     std::sort(clusters.begin(), clusters.end());
     clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
     return clusters;

@@ -37,11 +37,11 @@ struct CutStart {
     MergeRule rule = MergeRule::normalized_cut;
 };
 
-/// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 3K}, merged by the normalised cut of
+/// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 5K/2, 3K}, merged by the normalised cut of
 /// the same graph.
 std::vector<CutStart> pooled_starts(int parts);
 
-/// Without adjacency (overlap 1), clusters in {K+1, K+2, 2K, 3K}, merged by the normalised cut of the same graph: for
+/// Without adjacency (overlap 1), clusters in {K+1, K+2, 2K, 5K/2, 3K}, merged by the normalised cut of the same graph: for
 /// shapes with many limbs, where adjacency in the cut does harm.
 std::vector<CutStart> articulated_starts(int parts);
 
