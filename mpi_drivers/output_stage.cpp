@@ -59,6 +59,11 @@ std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::Ma
 
 ReportOptimisation report_optimisation(const RunOutcome& outcome) {
     const SolveResult& solution = outcome.optimisation.result;
+    std::vector<ReportPass> history;
+    for (const HistoryRow& row : solution.history) {
+        history.push_back(
+            {row.pass, row.iterations, row.objective, row.lower_bound, row.relative_gap, row.working_pairs});
+    }
     return {.variant = outcome.optimisation.variant,
             .scope = outcome.optimisation.scope,
             .links = outcome.optimisation.links,
@@ -74,7 +79,8 @@ ReportOptimisation report_optimisation(const RunOutcome& outcome) {
             .kkt_residual = solution.kkt_residual,
             .iterations = solution.iterations,
             .nonzero_groups = solution.nonzero_groups,
-            .reason = to_string(solution.reason)};
+            .reason = to_string(solution.reason),
+            .history = std::move(history)};
 }
 
 void add_strengths(Report& report, const FeatureStrength& strength, const RunOutcome& outcome) {
