@@ -2,8 +2,10 @@
 
 #include <sys/resource.h>
 
+#include "io/affinity_image.hpp"
 #include "io/label_file.hpp"
 #include "io/ply_writer.hpp"
+#include "io/png_writer.hpp"
 #include "io/report.hpp"
 #include "mpi_drivers/version.hpp"
 #include "solvers/affinity_picture.hpp"
@@ -14,6 +16,7 @@ namespace coseg {
 namespace {
 
 constexpr int affinity_bins = 96;
+constexpr int picture_bins = 480;
 
 double peak_memory_mib() {
     rusage usage{};
@@ -120,6 +123,18 @@ void add_run_facts(const Comm& comm, Report& report, const StageLog& log) {
     }
 }
 
+/// W permuted by part, finer than in the report. An assignment has no coefficients of its own to draw. Collective.
+void write_affinity_picture(const Comm& comm, const ResultFolder& folder, const RunOutcome& outcome) {
+    const SparseCoefficients& coefficients = outcome.optimisation.result.coefficients;
+    if (all_sum(comm, static_cast<std::int64_t>(coefficients.rows.size())) == 0) return;
+    const AffinityPicture picture =
+        affinity_picture(comm, coefficients, outcome.cut.part_of_patch, outcome.options.parts, picture_bins);
+    agree(comm, [&] {
+        if (comm.is_root())
+            write_png(folder.staging() + "/affinity.png", affinity_image(picture.rows, picture.part_ends));
+    });
+}
+
 }  // namespace
 
 ResultFolder::ResultFolder(const Comm& comm, const std::string& path, bool force) {
@@ -178,6 +193,7 @@ void write_run_report(const Comm& comm, const ResultFolder& folder, const RunOut
     report.affinity_part_ends = std::move(affinity.part_ends);
     report.part_area = to_vector(part_areas.rowwise().mean());
     add_strengths(report, strength, outcome);
+    if (outcome.options.sheet) write_affinity_picture(comm, folder, outcome);
     agree(comm, [&] {
         if (comm.is_root()) write_report(folder.staging() + "/report.json", report);
     });
