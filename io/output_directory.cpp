@@ -29,7 +29,8 @@ struct OwnFolder {
 constexpr std::array<OwnFolder, 3> own_folders{{{"labels", ".seg"}, {"patches", ".seg"}, {"ply", ".ply"}}};
 // Not every run has these; those of an earlier run show what is no longer there.
 constexpr OwnFolder picture_pages{"sheets", ".png"};
-constexpr std::array<const char*, 5> picture_files{"contact_sheet", "report.html", "profile.txt",
+constexpr std::array<const char*, 6> picture_files{"contact_sheet", "affinity.png",
+                                                   "report.html",   "profile.txt",
                                                    "trace.json",  // what their names begin with
                                                    "model.h5"};
 

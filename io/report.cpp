@@ -62,6 +62,19 @@ Json of_meshes(const std::vector<ReportMesh>& meshes) {
     return rows;
 }
 
+Json of_history(const std::vector<ReportPass>& history) {
+    Json rows = Json::array();
+    for (const ReportPass& p : history) {
+        rows.push_back({{"pass", p.pass},
+                        {"iterations", p.iterations},
+                        {"objective", p.objective},
+                        {"lower_bound", p.lower_bound},
+                        {"relative_gap", p.relative_gap},
+                        {"working_pairs", p.working_pairs}});
+    }
+    return rows;
+}
+
 Json of_optimisation(const ReportOptimisation& o) {
     return {{"variant", o.variant},
             {"scope", o.scope},
@@ -78,7 +91,8 @@ Json of_optimisation(const ReportOptimisation& o) {
             {"kkt_residual", o.kkt_residual},
             {"iterations", o.iterations},
             {"nonzero_groups", o.nonzero_groups},
-            {"reason", o.reason}};
+            {"reason", o.reason},
+            {"history", of_history(o.history)}};
 }
 
 Json of_partition(const Report& report) {

@@ -43,6 +43,16 @@ struct ReportRange {
     double high = 0.0;
 };
 
+/// The optimiser after a pass over all pairs.
+struct ReportPass {
+    int pass = 0;  ///< from 1
+    int iterations = 0;
+    double objective = 0.0;
+    double lower_bound = 0.0;
+    double relative_gap = 0.0;
+    std::int64_t working_pairs = 0;
+};
+
 struct ReportOptimisation {
     std::string variant;
     std::string scope;
@@ -60,6 +70,7 @@ struct ReportOptimisation {
     int iterations = 0;
     std::int64_t nonzero_groups = 0;
     std::string reason;
+    std::vector<ReportPass> history;
 };
 
 struct ReportStart {

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* iterate_format = "coseg solver iterate";
-constexpr int iterate_version = 2;
+constexpr int iterate_version = 3;
 
 std::string iterate_name(int generation, BlockRange columns) {
     char text[80];
@@ -80,7 +80,7 @@ bool is_complete(const std::vector<IterateFile>& files, std::int64_t size) {
 void write_iterate(const std::string& path, const SolveIterate& iterate, int features) {
     // One name for each field: a new one does not compile until it has been thought of here.
     const auto& [columns, offsets, rows, weights, prices, spectral, inner_gap, lower_bound, iterations,
-                 passes, newton, finished, objective, residual, reason] = iterate;
+                 passes, newton, history, finished, objective, residual, reason] = iterate;
     const auto& [step, recent, count, inner_iterations] = spectral;
     Hdf5Writer file(path, iterate_format, iterate_version);
     file.attribute("source_fingerprint", source_fingerprint());
@@ -97,6 +97,14 @@ void write_iterate(const std::string& path, const SolveIterate& iterate, int fea
     file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual});
     file.write("counts", std::vector<std::int64_t>{count, inner_iterations, iterations, passes,
                                                    finished ? 1 : 0, reason, newton.wait, newton.next});
+    std::vector<std::int64_t> steps;
+    std::vector<double> bounds;
+    for (const auto& [pass, so_far, reached, bound, gap, pairs] : history) {
+        steps.insert(steps.end(), {pass, so_far, pairs});
+        bounds.insert(bounds.end(), {reached, bound, gap});
+    }
+    file.write("history/counts", steps, {history.size(), 3});
+    file.write("history/numbers", bounds, {history.size(), 3});
     file.commit();
 }
 
@@ -126,6 +134,12 @@ SolveIterate read_iterate(const std::string& path) {
     iterate.residual = numbers.at(4);
     iterate.reason = static_cast<int>(counts.at(5));
     iterate.newton = {static_cast<int>(counts.at(6)), static_cast<int>(counts.at(7))};
+    const auto steps = file.read<std::int64_t>("history/counts");
+    const auto bounds = file.read<double>("history/numbers");
+    for (std::size_t k = 0; k + 2 < steps.size(); k += 3) {
+        iterate.history.push_back({static_cast<int>(steps[k]), static_cast<int>(steps[k + 1]), bounds.at(k),
+                                   bounds.at(k + 1), bounds.at(k + 2), steps[k + 2]});
+    }
     return iterate;
 }
 

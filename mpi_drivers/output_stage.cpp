@@ -2,8 +2,10 @@
 
 #include <sys/resource.h>
 
+#include "io/affinity_image.hpp"
 #include "io/label_file.hpp"
 #include "io/ply_writer.hpp"
+#include "io/png_writer.hpp"
 #include "io/report.hpp"
 #include "mpi_drivers/version.hpp"
 #include "solvers/affinity_picture.hpp"
@@ -14,6 +16,7 @@ namespace coseg {
 namespace {
 
 constexpr int affinity_bins = 96;
+constexpr int picture_bins = 480;
 
 double peak_memory_mib() {
     rusage usage{};
@@ -59,6 +62,11 @@ std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::Ma
 
 ReportOptimisation report_optimisation(const RunOutcome& outcome) {
     const SolveResult& solution = outcome.optimisation.result;
+    std::vector<ReportPass> history;
+    for (const HistoryRow& row : solution.history) {
+        history.push_back(
+            {row.pass, row.iterations, row.objective, row.lower_bound, row.relative_gap, row.working_pairs});
+    }
     return {.variant = outcome.optimisation.variant,
             .scope = outcome.optimisation.scope,
             .links = outcome.optimisation.links,
@@ -74,7 +82,8 @@ ReportOptimisation report_optimisation(const RunOutcome& outcome) {
             .kkt_residual = solution.kkt_residual,
             .iterations = solution.iterations,
             .nonzero_groups = solution.nonzero_groups,
-            .reason = to_string(solution.reason)};
+            .reason = to_string(solution.reason),
+            .history = std::move(history)};
 }
 
 void add_strengths(Report& report, const FeatureStrength& strength, const RunOutcome& outcome) {
@@ -112,6 +121,18 @@ void add_run_facts(const Comm& comm, Report& report, const StageLog& log) {
         report.stages.push_back({s.stage, s.seconds_min, s.seconds_mean, s.seconds_max, s.seconds_wall, {}});
         for (const StepTime& step : s.steps) report.stages.back().steps.push_back({step.step, step.seconds});
     }
+}
+
+/// W permuted by part, finer than in the report. An assignment has no coefficients of its own to draw. Collective.
+void write_affinity_picture(const Comm& comm, const ResultFolder& folder, const RunOutcome& outcome) {
+    const SparseCoefficients& coefficients = outcome.optimisation.result.coefficients;
+    if (all_sum(comm, static_cast<std::int64_t>(coefficients.rows.size())) == 0) return;
+    const AffinityPicture picture =
+        affinity_picture(comm, coefficients, outcome.cut.part_of_patch, outcome.options.parts, picture_bins);
+    agree(comm, [&] {
+        if (comm.is_root())
+            write_png(folder.staging() + "/affinity.png", affinity_image(picture.rows, picture.part_ends));
+    });
 }
 
 }  // namespace
@@ -172,6 +193,7 @@ void write_run_report(const Comm& comm, const ResultFolder& folder, const RunOut
     report.affinity_part_ends = std::move(affinity.part_ends);
     report.part_area = to_vector(part_areas.rowwise().mean());
     add_strengths(report, strength, outcome);
+    if (outcome.options.sheet) write_affinity_picture(comm, folder, outcome);
     agree(comm, [&] {
         if (comm.is_root()) write_report(folder.staging() + "/report.json", report);
     });

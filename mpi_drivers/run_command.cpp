@@ -16,7 +16,7 @@ Command add_run_command(CLI::App& parent) {
     fold_help(*app, {"Options", "Input and output", "Picture"});
     app->footer(
         "More options, of patches, features, optimisation and partition: coseg run --help-all.\nWhat follows "
-        "-- goes to PETSc and SLEPc.\nExample: mpirun -n 4 coseg run --parts 4 --out result "
+        "-- goes to PETSc and SLEPc.\nExample: coseg run --parts 4 --out result "
         "chairs/");
     return {app, [options, table](const Invocation& invocation) {
                 co_segment(invocation.world, *options, table->resolved(), invocation.petsc_arguments);

@@ -122,8 +122,8 @@ void RunOptionTable::add_input_and_output(CLI::App& app, OptionSet set) {
 }
 
 void RunOptionTable::add_picture(CLI::App& app) {
-    add_switch(app, "sheet", options_.sheet, "Draw contact_sheet.png: every shape, coloured by part",
-               picture_group);
+    add_switch(app, "sheet", options_.sheet,
+               "Draw contact_sheet.png, every shape coloured by part, and affinity.png", picture_group);
     add_switch(app, "html", options_.html, "Write report.html: the run as one page to look at",
                picture_group);
     add(app, "view", options_.view,

@@ -19,13 +19,18 @@ int tile_size(int shapes) {
 }
 
 UpAxis agreed_up(const Comm& comm, const std::vector<const DrawnShape*>& looked) {
-    FixedPointSum shares(3, 1.0);
+    FixedPointSum shares(5, 1.0);
     for (const DrawnShape* shape : looked) {
         const Eigen::Vector3d share = standing_shares(shape->picture.mesh);
         for (int axis = 0; axis < 3; ++axis) shares.add(static_cast<std::size_t>(axis), share[axis]);
+        shares.add(3, mirror_differences(shape->picture.mesh).y());
+        shares.add(4, 1.0);
     }
     const std::vector<double> sums = shares.all_sum(comm);
-    if (sums[1] >= 0.65 * std::max(sums[0], sums[2])) return UpAxis::y;
+    // Most files have y up, but y is the breadth rather than the height where the shapes are alike to both sides.
+    constexpr double alike = 0.04;
+    const double preference = sums[3] >= alike * sums[4] ? 0.65 : 1.0;
+    if (sums[1] >= preference * std::max(sums[0], sums[2])) return UpAxis::y;
     return sums[2] >= sums[0] ? UpAxis::z : UpAxis::x;
 }
 

@@ -36,6 +36,15 @@ void broadcast_matrices(const Comm& comm, std::vector<Eigen::MatrixXd>& matrices
 }
 
 std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result) {
+    nlohmann::ordered_json history = nlohmann::ordered_json::array();
+    for (const HistoryRow& row : result.history) {
+        history.push_back({{"pass", row.pass},
+                           {"iterations", row.iterations},
+                           {"objective", row.objective},
+                           {"lower_bound", row.lower_bound},
+                           {"relative_gap", row.relative_gap},
+                           {"working_pairs", row.working_pairs}});
+    }
     const nlohmann::ordered_json json = {{"objective", result.objective},
                                          {"lower_bound", result.lower_bound},
                                          {"relative_gap", result.relative_gap},
@@ -51,7 +60,8 @@ std::string certificate_json(const SubspaceProblem& problem, const SolveResult& 
                                          {"h", problem.feature_count()},
                                          {"lambda", problem.lambda},
                                          {"alpha", problem.alpha},
-                                         {"beta", problem.beta}};
+                                         {"beta", problem.beta},
+                                         {"history", history}};
     return json.dump();
 }
 

@@ -73,6 +73,7 @@ void add(Optimisation& sum, Optimisation&& one, bool first) {
     s.passes += o.passes;
     s.relative_gap = std::max(s.relative_gap, o.relative_gap);
     s.kkt_residual = std::max(s.kkt_residual, o.kkt_residual);
+    s.history = joined({s.history, o.history});
     s.iterations = std::max(s.iterations, o.iterations);
     if (s.reason == StopReason::gap_reached) s.reason = o.reason;
     sum.links = std::max(sum.links, one.links);

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* tiles_format = "coseg solver tiles";
-constexpr int tiles_version = 1;
+constexpr int tiles_version = 2;
 constexpr std::chrono::seconds look_interval{1};
 
 std::string tiles_name(std::int64_t begin, std::int64_t end) {
@@ -75,6 +75,8 @@ void write_tiles(const std::string& path, const std::vector<SolvedTile>& tiles, 
     std::vector<std::int32_t> iterations, passes;
     std::vector<double> residuals;
     std::vector<std::int8_t> limited;
+    std::vector<std::int64_t> round_counts, round_steps;
+    std::vector<double> round_numbers;
     for (const SolvedTile& tile : tiles) {
         begins.push_back(tile.begin);
         ends.push_back(tile.end);
@@ -84,6 +86,11 @@ void write_tiles(const std::string& path, const std::vector<SolvedTile>& tiles, 
         passes.push_back(tile.passes);
         residuals.push_back(tile.residual);
         limited.push_back(tile.limited ? 1 : 0);
+        round_counts.push_back(static_cast<std::int64_t>(tile.rounds.size()));
+        for (const auto& [reached, bound, so_far, round_pairs] : tile.rounds) {
+            round_numbers.insert(round_numbers.end(), {reached, bound});
+            round_steps.insert(round_steps.end(), {so_far, round_pairs});
+        }
         append(all.offsets, tile.offsets);
         append(all.rows, tile.rows);
         append(all.values, tile.values);
@@ -103,6 +110,9 @@ void write_tiles(const std::string& path, const std::vector<SolvedTile>& tiles, 
     file.write("tile/passes", passes);
     file.write("tile/residual", residuals);
     file.write("tile/limited", limited);
+    file.write("tile/rounds", round_counts);
+    file.write("round/numbers", round_numbers, {round_numbers.size() / 2, 2});
+    file.write("round/counts", round_steps, {round_steps.size() / 2, 2});
     file.write("offsets", all.offsets);
     file.write("rows", all.rows);
     file.write("values", all.values, {all.rows.size(), static_cast<std::uint64_t>(features)});
@@ -121,6 +131,9 @@ std::vector<SolvedTile> read_tiles(const std::string& path) {
     const auto passes = file.read<std::int32_t>("tile/passes");
     const auto residuals = file.read<double>("tile/residual");
     const auto limited = file.read<std::int8_t>("tile/limited");
+    const auto round_counts = file.read<std::int64_t>("tile/rounds");
+    const auto round_numbers = file.read<double>("round/numbers");
+    const auto round_steps = file.read<std::int64_t>("round/counts");
     const auto offsets = file.read<std::int64_t>("offsets");
     const auto rows = file.read<std::int32_t>("rows");
     const auto values = file.read<double>("values");
@@ -130,6 +143,7 @@ std::vector<SolvedTile> read_tiles(const std::string& path) {
     std::vector<SolvedTile> tiles;
     std::int64_t column = 0;
     std::int64_t pair = 0;
+    std::size_t round = 0;
     for (std::size_t t = 0; t < begins.size(); ++t) {
         const std::int64_t columns = ends[t] - begins[t];
         tiles.push_back({.begin = begins[t],
@@ -143,7 +157,13 @@ std::vector<SolvedTile> read_tiles(const std::string& path) {
                          .iterations = iterations[t],
                          .passes = passes[t],
                          .working_pairs = working[t],
-                         .limited = limited[t] != 0});
+                         .limited = limited[t] != 0,
+                         .rounds = {}});
+        for (std::int64_t k = 0; k < round_counts[t]; ++k, round += 2) {
+            tiles.back().rounds.push_back({round_numbers.at(round), round_numbers.at(round + 1),
+                                           static_cast<int>(round_steps.at(round)),
+                                           round_steps.at(round + 1)});
+        }
         column += columns;
         pair += pairs[t];
     }

@@ -248,8 +248,15 @@ SolveResult solve_dense(const Comm& comm, const SubspaceProblem& problem, const 
     StoppingRule rule(comm, options, stack.squared_norm);
     SolveResult result;
     constexpr int certificate_interval = 10;
-    bool stopped = rule.certify(model.objective(), model.lower_bound());
-    ++result.passes;
+    const std::int64_t all_pairs = static_cast<std::int64_t>(stack.size) * (stack.size - 1);
+    const auto certify = [&] {
+        const bool reached = rule.certify(model.objective(), model.lower_bound());
+        ++result.passes;
+        append_row(result.history, {result.passes, result.iterations, model.objective(), rule.lower_bound(),
+                                    rule.relative_gap(), all_pairs});
+        return reached;
+    };
+    const bool stopped = certify();
     const auto stop = [&](const SpectralProgress& progress) {
         result.iterations = progress.iterations;
         result.kkt_residual = progress.residual / gradient_scale(stack);
@@ -257,16 +264,15 @@ SolveResult solve_dense(const Comm& comm, const SubspaceProblem& problem, const 
                          progress.iterations >= options.max_iterations ||
                          result.kkt_residual <= smallest_residual;
         if (!due) return false;
-        ++result.passes;
         const bool limit = rule.limit_reached(progress.iterations, result.kkt_residual);
-        return rule.certify(model.objective(), model.lower_bound()) || limit;
+        return certify() || limit;
     };
     if (!stopped) {
         const double first_step = 1.0 / (2.0 * (stack.largest_inner + problem.lambda));
         spectral_projected_gradient(model, first_step, stop);
     }
     result.coefficients = model.coefficients();
-    result.working_pairs = static_cast<std::int64_t>(stack.size) * (stack.size - 1);
+    result.working_pairs = all_pairs;
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
     rule.report(result);
     return result;

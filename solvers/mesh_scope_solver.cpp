@@ -33,6 +33,7 @@ struct Column {
     double residual = 0.0;
     double inner_gap = 0.0;  ///< asked of the working set's problem, relative to its decrease
     int iterations = 0;
+    std::vector<ColumnRound> rounds;
     ColumnState state = ColumnState::open;
 };
 
@@ -42,6 +43,7 @@ struct Totals {
     std::int64_t working_pairs = 0;
     bool limited = false;
     double residual = 0.0;
+    std::vector<std::vector<ColumnRound>> rounds;  ///< per tile
 };
 
 class MeshScopeSolver {
@@ -137,6 +139,7 @@ SolvedTile MeshScopeSolver::solve_tile(std::int64_t begin, std::int64_t end) {
     tile.end = end;
     tile.offsets = {0};
     tile.passes = passes;
+    std::vector<std::vector<ColumnRound>> rounds;
     for (const Column& column : columns) {
         tile.iterations = std::max(tile.iterations, column.iterations);
         tile.working_pairs += static_cast<std::int64_t>(column.working.rows.size());
@@ -145,7 +148,9 @@ SolvedTile MeshScopeSolver::solve_tile(std::int64_t begin, std::int64_t end) {
         tile.decrease.push_back(column.decrease);
         tile.largest_decrease.push_back(column.largest_decrease);
         append_column(column, tile);
+        rounds.push_back(column.rounds);
     }
+    tile.rounds = joined_rounds(rounds);
     return tile;
 }
 
@@ -189,6 +194,8 @@ int MeshScopeSolver::solve_batch(std::span<Column*> batch, const std::vector<int
 
 void MeshScopeSolver::judge(Column& column, const ColumnVerdict& verdict) const {
     column.largest_decrease = std::min(column.largest_decrease, verdict.largest_decrease);
+    append_round(column.rounds, {column.decrease, column.largest_decrease, column.iterations,
+                                 static_cast<std::int64_t>(column.working.rows.size())});
     const double gap = column.largest_decrease - column.decrease;
     if (gap <= std::max(options_.gap * column.decrease, negligible * column.squared_norm)) {
         column.state = ColumnState::gap_reached;
@@ -298,6 +305,34 @@ void add_tile(const SolvedTile& tile, SparseCoefficients& sparse, ExactSum& sums
     totals.working_pairs += tile.working_pairs;
     totals.residual = std::max(totals.residual, tile.residual);
     totals.limited = totals.limited || tile.limited;
+    totals.rounds.push_back(tile.rounds);
+}
+
+/// Both ends of the gap where the columns together have decreased the objective so much, and no W does so by more than
+/// `largest_decrease`.
+HistoryRow certificate(const FeatureStack& stack, double decrease, double largest_decrease) {
+    HistoryRow row;
+    row.objective = stack.squared_norm - decrease;
+    row.lower_bound =
+        std::max(0.0, stack.squared_norm * (1.0 - stack.inner_product_error()) - largest_decrease);
+    const double width = std::max(largest_decrease - decrease, 0.0);
+    const bool rounding_only = width <= 1e-14 * stack.squared_norm;
+    row.relative_gap = decrease > 0.0 ? width / decrease : (rounding_only ? 0.0 : 1.0);
+    return row;
+}
+
+/// Collective. The last row is the answer's own.
+void finish_history(const Comm& comm, const Totals& totals, const FeatureStack& stack, SolveResult& result) {
+    const std::vector<ColumnRound> rounds = joined_rounds(comm, totals.rounds);
+    for (std::size_t k = 0; k < rounds.size(); ++k) {
+        HistoryRow row = certificate(stack, rounds[k].reached, rounds[k].bound);
+        if (k + 1 == rounds.size())
+            row = {0, 0, result.objective, result.lower_bound, result.relative_gap, 0};
+        row.pass = k + 1 == rounds.size() ? result.passes : static_cast<int>(k) + 1;
+        row.iterations = rounds[k].iterations;
+        row.working_pairs = rounds[k].working_pairs;
+        append_row(result.history, row);
+    }
 }
 
 void finish_result(const Comm& comm, const Totals& totals, const MeshScopeSolver& solver, double gap,
@@ -307,17 +342,16 @@ void finish_result(const Comm& comm, const Totals& totals, const MeshScopeSolver
     const double decrease = sums.scalar(0);
     const double largest_decrease = sums.scalar(1) * (1.0 + 1e-15);
     result.objective_at_zero = stack.squared_norm;
-    result.objective = stack.squared_norm - decrease;
-    result.lower_bound =
-        std::max(0.0, stack.squared_norm * (1.0 - stack.inner_product_error()) - largest_decrease);
-    const double width = std::max(largest_decrease - decrease, 0.0);
-    const bool rounding_only = width <= 1e-14 * stack.squared_norm;
-    result.relative_gap = decrease > 0.0 ? width / decrease : (rounding_only ? 0.0 : 1.0);
+    const HistoryRow end = certificate(stack, decrease, largest_decrease);
+    result.objective = end.objective;
+    result.lower_bound = end.lower_bound;
+    result.relative_gap = end.relative_gap;
     result.kkt_residual = all_max(comm, totals.residual);
     result.iterations = static_cast<int>(all_max(comm, totals.iterations));
     result.passes = static_cast<int>(all_max(comm, totals.passes));
     result.working_pairs = all_sum(comm, totals.working_pairs);
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
+    finish_history(comm, totals, stack, result);
     const bool timed_out = all_max(comm, solver.timed_out() ? 1.0 : 0.0) > 0.0;
     const bool limited = all_max(comm, totals.limited ? 1.0 : 0.0) > 0.0;
     if (result.relative_gap <= gap) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solvers/solve_history.hpp"
 #include "solvers/spectral_projected_gradient.hpp"
 #include "solvers/subspace_problem.hpp"
 #include "src/block_range.hpp"
@@ -27,7 +28,8 @@ struct SolvedTile {
     int iterations = 0;
     int passes = 0;
     std::int64_t working_pairs = 0;
-    bool limited = false;  ///< a column stopped at the iteration limit
+    bool limited = false;             ///< a column stopped at the iteration limit
+    std::vector<ColumnRound> rounds;  ///< of all columns together; reached: decrease
 };
 
 /// When the solve on the working set next tries a Newton step.
@@ -51,6 +53,7 @@ struct SolveIterate {
     int iterations = 0;        ///< before this solve; at the end: in all
     int passes = 0;
     NewtonTurns newton;
+    SolveHistory history;
     // At the end:
     bool finished = false;
     double objective = 0.0;

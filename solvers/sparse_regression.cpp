@@ -38,6 +38,7 @@ struct Column {
     bool open = true;
     bool limited = false;
     bool stalled = false;
+    std::vector<ColumnRound> rounds;
 };
 
 /// A row that pulls at a column from outside its working set.
@@ -305,6 +306,8 @@ std::vector<Column> SparseRegression::solve_tile(std::int64_t begin, std::int64_
         for (std::size_t c = 0; c < open.size(); ++c) {
             Column& column = *open[c];
             judge(column, surveys[c]);
+            append_round(column.rounds, {column.objective, column.lower_bound, column.sweeps,
+                                         static_cast<std::int64_t>(column.rows.size())});
             if (!column.open) continue;
             if (column.limited || timed_out_) {
                 column.open = false;
@@ -339,12 +342,31 @@ struct Totals {
     int sweeps = 0;
     bool limited = false;
     std::int64_t working_pairs = 0;
+    std::vector<std::vector<ColumnRound>> rounds;  ///< per tile
 };
 
 StopReason reason_of(const Comm& comm, const Totals& totals, bool timed_out) {
     if (all_max(comm, timed_out ? 1.0 : 0.0) > 0.0) return StopReason::time_limit;
     return all_max(comm, totals.limited ? 1.0 : 0.0) > 0.0 ? StopReason::iteration_limit
                                                            : StopReason::residual_reached;
+}
+
+double relative_gap(double objective, double lower_bound, double objective_at_zero) {
+    return (objective - lower_bound) / std::max(objective, 1e-6 * objective_at_zero);
+}
+
+/// Collective. The last row is the answer's own.
+void finish_history(const Comm& comm, const std::vector<std::vector<ColumnRound>>& tiles,
+                    SolveResult& result) {
+    for (const ColumnRound& round : joined_rounds(comm, tiles)) {
+        const double bound = std::min(round.bound, round.reached);
+        result.history.push_back(
+            {static_cast<int>(result.history.size()) + 1, round.iterations, round.reached, bound,
+             relative_gap(round.reached, bound, result.objective_at_zero), round.working_pairs});
+    }
+    HistoryRow& last = result.history.back();
+    last = {result.passes,      result.iterations,   result.objective,
+            result.lower_bound, result.relative_gap, result.working_pairs};
 }
 
 }  // namespace
@@ -358,7 +380,9 @@ SolveResult solve_sparse_regression(const Comm& comm, const SubspaceProblem& pro
     ExactSum sums(0, 1.0, 2);
     Totals totals;
     for (std::int64_t begin = owned.begin; begin < owned.end; begin += coefficient_tile) {
+        std::vector<std::vector<ColumnRound>> rounds;
         for (const Column& column : solver.solve_tile(begin, std::min(begin + coefficient_tile, owned.end))) {
+            rounds.push_back(column.rounds);
             sums.add_scalar(0, column.objective);
             sums.add_scalar(1, column.lower_bound);
             append_column(column, result.coefficients);
@@ -366,17 +390,18 @@ SolveResult solve_sparse_regression(const Comm& comm, const SubspaceProblem& pro
             totals.limited = totals.limited || column.limited;
             totals.working_pairs += static_cast<std::int64_t>(column.rows.size());
         }
+        totals.rounds.push_back(joined_rounds(rounds));
     }
     sums.reduce(comm);
     result.objective_at_zero = solver.stack().squared_norm;
     result.objective = sums.scalar(0);
     result.lower_bound = std::min(sums.scalar(1), result.objective);
-    result.relative_gap =
-        (result.objective - result.lower_bound) / std::max(result.objective, 1e-6 * result.objective_at_zero);
+    result.relative_gap = relative_gap(result.objective, result.lower_bound, result.objective_at_zero);
     result.iterations = static_cast<int>(all_max(comm, totals.sweeps));
     result.passes = static_cast<int>(all_max(comm, solver.passes()));
     result.working_pairs = all_sum(comm, totals.working_pairs);
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
+    finish_history(comm, totals.rounds, result);
     const StopReason otherwise = reason_of(comm, totals, solver.timed_out());
     result.reason = result.relative_gap <= options.gap ? StopReason::gap_reached : otherwise;
     return result;

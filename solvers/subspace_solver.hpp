@@ -5,6 +5,7 @@
 #include <string>
 
 #include "solvers/coefficients.hpp"
+#include "solvers/solve_history.hpp"
 #include "solvers/solve_journal.hpp"
 #include "solvers/subspace_problem.hpp"
 #include "src/comm.hpp"
@@ -44,6 +45,9 @@ struct SolveResult {
     std::int64_t working_pairs = 0;   ///< pairs that the last working set held, all ranks
     std::int64_t nonzero_groups = 0;  ///< pairs with a value > 0, all ranks
     StopReason reason = StopReason::gap_reached;
+    /// A row a pass over all pairs (dense: a certificate), the last one as above. Scope mesh, ssc: row k is after every
+    /// column's k-th pass. Complete also where a journal resumes the solve.
+    SolveHistory history;
     PassCost pass_cost;  ///< scope paper by working sets, and scope mesh; not the same on all ranks
 };
 

@@ -72,6 +72,7 @@ StopReason worse(StopReason a, StopReason b) { return std::max(a, b); }
 SolveResult solve_independent(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options) {
     SolveResult sum;
     std::vector<SparseCoefficients> coefficients;
+    std::vector<SolveHistory> histories;
     for (std::size_t h = 0; h < problem.features.size(); ++h) {
         SolveResult one = solve_subspace(comm, of_one_feature(problem, h), options);
         sum.objective += one.objective;
@@ -83,13 +84,19 @@ SolveResult solve_independent(const Comm& comm, const SubspaceProblem& problem, 
         sum.working_pairs += one.working_pairs;
         sum.reason = worse(sum.reason, one.reason);
         coefficients.push_back(std::move(one.coefficients));
+        histories.push_back(std::move(one.history));
     }
-    const double decrease = sum.objective_at_zero - sum.objective;
-    const double scale = problem.scope == PenaltyScope::mesh
-                             ? decrease
-                             : std::max(sum.objective, 1e-6 * sum.objective_at_zero);
-    const double width = std::max(sum.objective - sum.lower_bound, 0.0);
-    sum.relative_gap = scale > 0.0 ? width / scale : 0.0;
+    const auto relative_gap = [&](double objective, double lower_bound) {
+        const double scale = problem.scope == PenaltyScope::mesh
+                                 ? sum.objective_at_zero - objective
+                                 : std::max(objective, 1e-6 * sum.objective_at_zero);
+        const double width = std::max(objective - lower_bound, 0.0);
+        const bool rounding_only = width <= 1e-14 * sum.objective_at_zero;
+        return scale > 0.0 ? width / scale : (rounding_only ? 0.0 : 1.0);
+    };
+    sum.relative_gap = relative_gap(sum.objective, sum.lower_bound);
+    sum.history = joined(histories);
+    for (HistoryRow& row : sum.history) row.relative_gap = relative_gap(row.objective, row.lower_bound);
     sum.coefficients = side_by_side(coefficients);
     sum.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(sum.coefficients.rows.size()));
     return sum;

@@ -135,6 +135,7 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         iterate.iterations = before;
         iterate.passes = result.passes;
         iterate.newton = turns;
+        iterate.history = result.history;
         journal->keep_iterate(iterate);
     };
     const auto stop = [&](const SpectralProgress& inner) {
@@ -162,6 +163,18 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
     progress.row_sums = model.row_sums();
 }
 
+/// What a pass has found, as a row of the history. Collective.
+void record(const Comm& comm, StoppingRule& rule, const Progress& progress, const PassFindings& findings,
+            const WorkingSet& working, SolveResult& result) {
+    rule.certify(progress.objective, findings.lower_bound);
+    append_row(result.history, {.pass = result.passes,
+                                .iterations = result.iterations,
+                                .objective = progress.objective,
+                                .lower_bound = rule.lower_bound(),
+                                .relative_gap = rule.relative_gap(),
+                                .working_pairs = all_sum(comm, working.pair_count())});
+}
+
 /// Takes up an iterate that a journal has kept. A finished one leaves nothing to do.
 PassFindings resume(const FeatureStack& stack, const SolveIterate& known, WorkingSet& working,
                     std::vector<double>& prices, StoppingRule& rule, Progress& progress,
@@ -170,6 +183,7 @@ PassFindings resume(const FeatureStack& stack, const SolveIterate& known, Workin
     progress.inner_gap = known.inner_gap;
     result.iterations = known.iterations;
     result.passes = known.passes;
+    result.history = known.history;
     if (known.finished) {
         progress.objective = known.objective;
         progress.limited = true;
@@ -190,6 +204,7 @@ void close_journal(SolveJournal& journal, const WorkingSet& working, const std::
         iterate.lower_bound = rule.lower_bound();
         iterate.iterations = result.iterations;
         iterate.passes = result.passes;
+        iterate.history = result.history;
         iterate.finished = true;
         iterate.objective = progress.objective;
         iterate.residual = result.kkt_residual;
@@ -237,6 +252,7 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
     if (!known) result.passes = 1;
     PassFindings findings =
         known ? resume(stack, *known, working, prices, rule, progress, result) : pass.first(working);
+    if (!known) record(comm, rule, progress, findings, working, result);
     while (!rule.certify(progress.objective, findings.lower_bound) && !progress.limited) {
         const bool goes_on =
             known || prepare_solve(stack, findings, options, result.passes, rule, working, progress);
@@ -247,6 +263,7 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
         if (progress.stopped) break;
         findings = pass.run(working, progress.row_sums);
         ++result.passes;
+        record(comm, rule, progress, findings, working, result);
     }
     if (journal != nullptr) close_journal(*journal, working, prices, rule, progress, result, was_finished);
     result.pass_cost = pass.cost();

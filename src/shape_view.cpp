@@ -59,12 +59,19 @@ double edge_side(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double x, d
 /// Marks the pixels whose middle the triangle covers; corners in pixels.
 void cover(Raster& covered, const std::array<Eigen::Vector2d, 3>& corners) {
     const auto [a, b, c] = corners;
-    const auto clipped = [](double value) { return std::clamp(static_cast<int>(value), 0, raster - 1); };
+    // Pixels whose middle lies between the least and the largest coordinate: none for most small triangles.
+    const auto first = [](double least) { return std::max(0, static_cast<int>(std::ceil(least - 0.5))); };
+    const auto last = [](double most) {
+        return std::min(raster - 1, static_cast<int>(std::floor(most - 0.5)));
+    };
+    const int low_x = first(std::min({a.x(), b.x(), c.x()}));
+    const int high_x = last(std::max({a.x(), b.x(), c.x()}));
+    const int low_y = first(std::min({a.y(), b.y(), c.y()}));
+    const int high_y = last(std::max({a.y(), b.y(), c.y()}));
+    if (low_x > high_x) return;
     const double turn = edge_side(a, b, c.x(), c.y()) < 0.0 ? -1.0 : 1.0;
-    for (int y = clipped(std::min({a.y(), b.y(), c.y()})); y <= clipped(std::max({a.y(), b.y(), c.y()}));
-         ++y) {
-        for (int x = clipped(std::min({a.x(), b.x(), c.x()})); x <= clipped(std::max({a.x(), b.x(), c.x()}));
-             ++x) {
+    for (int y = low_y; y <= high_y; ++y) {
+        for (int x = low_x; x <= high_x; ++x) {
             const double px = x + 0.5;
             const double py = y + 0.5;
             if (turn * edge_side(a, b, px, py) >= 0.0 && turn * edge_side(b, c, px, py) >= 0.0 &&
@@ -162,6 +169,31 @@ Eigen::Vector3d standing_shares(const TriMesh& mesh) {
         if (whole > 0.0) shares[axis] = (most - least).prod() / whole;
     }
     return shares;
+}
+
+Eigen::Vector3d mirror_differences(const TriMesh& mesh) {
+    constexpr int places = 16;
+    const Eigen::Vector3d low = mesh.vertices.rowwise().minCoeff();
+    const Eigen::Vector3d extent = mesh.vertices.rowwise().maxCoeff() - low;
+    Eigen::Matrix<double, 3, places + 1> areas = Eigen::Matrix<double, 3, places + 1>::Zero();
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const Eigen::Vector3d a = mesh.vertices.col(mesh.faces(0, f));
+        const Eigen::Vector3d b = mesh.vertices.col(mesh.faces(1, f));
+        const Eigen::Vector3d c = mesh.vertices.col(mesh.faces(2, f));
+        const double area = (b - a).cross(c - a).norm();
+        for (const Eigen::Vector3d& corner : {a, b, c}) {
+            for (int axis = 0; axis < 3; ++axis) {
+                if (!(extent[axis] > 0.0)) continue;
+                // Shared between the two next places, so that a mirror image has the mirrored shares.
+                const double at = places * (corner[axis] - low[axis]) / extent[axis];
+                const int place = std::clamp(static_cast<int>(at), 0, places - 1);
+                areas(axis, place) += area * (place + 1 - at);
+                areas(axis, place + 1) += area * (at - place);
+            }
+        }
+    }
+    const Eigen::Vector3d whole = areas.rowwise().sum().cwiseMax(std::numeric_limits<double>::min());
+    return (areas - areas.rowwise().reverse()).cwiseAbs().rowwise().sum().cwiseQuotient(2.0 * whole);
 }
 
 }  // namespace coseg

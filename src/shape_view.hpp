@@ -39,4 +39,8 @@ std::vector<double> outline_areas(const TriMesh& mesh, const std::vector<View>& 
 /// what touches the ground (the lowest twentieth), as a share of the mesh's whole bounding rectangle seen from above.
 Eigen::Vector3d standing_shares(const TriMesh& mesh);
 
+/// How far a mesh is from its mirror image along each axis x, y, z, 0..1: half the difference of how the area lies along
+/// the axis, in sixteenths, and back. Most things are alike to the left and the right and at times to the front and the back, seldom above and below.
+Eigen::Vector3d mirror_differences(const TriMesh& mesh);
+
 }  // namespace coseg

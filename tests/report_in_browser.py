@@ -91,6 +91,25 @@ def column(browser, number):
     return browser.script(f"return [...document.querySelectorAll('#shapes tbody tr')].map(r => r.cells[{number}].textContent)")
 
 
+def check_convergence(browser):
+    """The charts show the optimiser's history: the gap on a logarithmic axis, the objective above its bound."""
+    charts = browser.script("""
+        return window.cosegReport.charts.map(chart => ({
+            title: chart.canvas.closest('.chart').querySelector('h3').textContent, kind: chart.options.scales.y ? chart.options.scales.y.type : '',
+            sets: chart.data.datasets.map(set => set.data), labels: chart.data.labels,
+            drawn: chart.data.datasets.map((_, i) => chart.getDatasetMeta(i).data.map(point => [point.x, point.y])), bottom: chart.chartArea.bottom}))""")
+    history = json.loads(browser.script("return document.getElementById('data').textContent"))["report"]["optimisation"]["history"]
+    assert len(history) > 1, history
+    gaps = next(chart for chart in charts if chart["title"].startswith("Convergence"))
+    assert gaps["kind"] == "logarithmic", gaps
+    assert gaps["labels"] == [row["pass"] for row in history] and gaps["sets"][0] == [row["relative_gap"] or None for row in history], gaps
+    assert gaps["drawn"][0][-1][1] > gaps["drawn"][0][0][1], "the gap does not fall in the picture"
+    assert all(0 <= y <= gaps["bottom"] for _, y in gaps["drawn"][0]), gaps
+    bounds = next(chart for chart in charts if chart["title"].startswith("Objective"))
+    assert bounds["sets"] == [[row["objective"] for row in history], [row["lower_bound"] for row in history]], bounds
+    assert all(upper[1] <= lower[1] + 0.5 for upper, lower in zip(*bounds["drawn"])), "the bound is drawn above the objective"
+
+
 def check_page(browser, shapes, parts, has_accuracy):
     assert len(column(browser, 0)) == shapes, column(browser, 0)
     assert browser.script("return document.querySelectorAll('#viewerA option').length") == shapes
@@ -100,6 +119,7 @@ def check_page(browser, shapes, parts, has_accuracy):
     assert browser.script("return document.querySelectorAll('#charts canvas').length") >= 5
     assert has_accuracy == browser.script("return [...document.querySelectorAll('th')].some(t => t.textContent === 'accuracy')")
 
+    check_convergence(browser)
     whole = pixels_drawn(browser)
     assert whole > 3000, f"the first shape is not drawn: {whole} pixels"
     before = camera(browser)
@@ -153,7 +173,9 @@ def main():
             try:
                 start = time.time()
                 browser.do("/url", {"url": "file://" + os.path.abspath(path)})
-                print(f"opened in {time.time() - start:.2f} s, {os.path.getsize(path) / 1e6:.2f} MB")
+                ready = browser.script("return performance.getEntriesByType('navigation')[0].loadEventEnd") / 1000
+                print(f"{os.path.getsize(path) / 1e6:.2f} MB, {shapes} shapes, drawn {ready:.2f} s after the browser was told to open it "
+                      f"({time.time() - start:.2f} s with the browser's own start)")
                 check_page(browser, shapes, parts, "--accuracy" in sys.argv)
                 severe = [entry for entry in browser.do("/se/log", {"type": "browser"}) if entry["level"] == "SEVERE"]
                 assert not severe, severe

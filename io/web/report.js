@@ -15,7 +15,7 @@
     if (parent) parent.appendChild(made);
     return made;
   };
-  const significant = (value) => (value === 0 ? "0" : Number(value).toPrecision(3));
+  const significant = (value) => (value === 0 ? "0" : Math.abs(value) < 1e-3 ? Number(value).toExponential(1) : Number(value).toPrecision(3));
 
   function fillHeading() {
     element("subtitle").textContent = shapes.length + (shapes.length === 1 ? " shape, " : " shapes, ") + partCount +
@@ -329,12 +329,46 @@
         data: [s.overall].concat(s.within_part), backgroundColor: shades[i % shades.length] })) },
       options: titled("", "share of the coefficients", { x: { stacked: true }, y: { stacked: true, max: 1 } }) });
   }
+  // A row of the history in words, for the tooltips.
+  function passNote(history) {
+    return { plugins: { tooltip: { mode: "index", intersect: false, callbacks: {
+      title: (items) => "pass " + history[items[0].dataIndex].pass,
+      footer: (items) => {
+        const row = history[items[0].dataIndex];
+        return row.iterations.toLocaleString("en") + " iterations, " + row.working_pairs.toLocaleString("en") + " pairs in the working set";
+      } } } } };
+  }
+  const passes = (history) => history.map((row) => row.pass);
   function boundChart() {
     const o = report.optimisation;
+    const history = o.history || [];
+    if (history.length > 1) {
+      const line = (label, key, color, more) => Object.assign({ label, data: history.map((row) => row[key]), borderColor: color,
+        backgroundColor: color, pointRadius: history.length > 40 ? 0 : 3, borderWidth: 2 }, more);
+      new Chart(chartBox("Objective and its lower bound"), { type: "line",
+        data: { labels: passes(history), datasets: [
+          line("objective", "objective", "#0072b2", { fill: { target: 1, above: "rgba(0, 114, 178, 0.12)" } }), line("lower bound", "lower_bound", "#009e73")] },
+        options: titled("pass over all pairs", "objective", passNote(history)) });
+      return;
+    }
     new Chart(chartBox("Objective and its bound (gap " + significant(o.relative_gap) + ", " + o.iterations + " iterations)"), { type: "bar",
       data: { labels: ["W = 0", "found", "lower bound"], datasets: [
         { data: [o.objective_at_zero, o.objective, o.lower_bound], backgroundColor: ["#c9c9c4", "#0072b2", "#009e73"] }] },
       options: titled("", "objective", unlabelled) });
+  }
+  function gapChart() {
+    const o = report.optimisation;
+    const history = o.history || [];
+    if (history.length < 2) return;
+    const target = report.options.gap;
+    const dash = { label: "asked for", data: history.map(() => target), borderColor: "#d55e00", backgroundColor: "#d55e00", borderDash: [6, 4], pointRadius: 0, borderWidth: 1.5 };
+    // A logarithm has no place for a gap that is closed to the last bit.
+    const gaps = history.map((row) => (row.relative_gap > 0 ? row.relative_gap : null));
+    new Chart(chartBox("Convergence: gap " + significant(o.relative_gap) + ", " + o.iterations.toLocaleString("en") + " iterations"), { type: "line",
+      data: { labels: passes(history), datasets: [{ label: "relative gap", data: gaps, borderColor: "#0072b2", backgroundColor: "#0072b2",
+        pointRadius: history.length > 40 ? 0 : 3, borderWidth: 2 }].concat(target > 0 ? [dash] : []) },
+      options: titled("pass over all pairs", "relative gap", Object.assign({ y: { type: "logarithmic", ticks: { callback: (value) =>
+        (Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9 ? value.toExponential(0) : "") } } }, passNote(history))) });
   }
   function startChart() {
     const p = report.partition;
@@ -379,7 +413,7 @@
   fillHeading();
   fillTable();
   fillViewers();
-  [stageChart, strengthChart, boundChart, startChart, eigenvalueChart, affinityPicture].forEach((draw) => draw());
+  [stageChart, strengthChart, gapChart, boundChart, startChart, eigenvalueChart, affinityPicture].forEach((draw) => draw());
   element("options").textContent = JSON.stringify(report.options, null, 2);
-  window.cosegReport = { viewers, hidden, shapes };
+  window.cosegReport = { viewers, hidden, shapes, charts: Object.values(Chart.instances) };
 })();

@@ -23,6 +23,29 @@ SparseCoefficients gather(const Comm& comm, const SparseCoefficients& mine) {
     return all;
 }
 
+/// Every row is a certificate of its own, and the last one is the answer's.
+void expect_history(const SolveResult& result) {
+    ASSERT_FALSE(result.history.empty());
+    EXPECT_LE(result.history.size(), most_history_rows);
+    const double rounding = 1e-12 * result.objective_at_zero;
+    for (std::size_t k = 0; k < result.history.size(); ++k) {
+        const HistoryRow& row = result.history[k];
+        EXPECT_LE(row.lower_bound, result.objective + rounding) << "row " << k;
+        EXPECT_GE(row.objective, result.lower_bound - rounding) << "row " << k;
+        if (k == 0) continue;
+        EXPECT_GT(row.pass, result.history[k - 1].pass);
+        EXPECT_GE(row.iterations, result.history[k - 1].iterations);
+        EXPECT_GE(row.lower_bound, result.history[k - 1].lower_bound - rounding);
+    }
+    const HistoryRow& last = result.history.back();
+    EXPECT_EQ(last.pass, result.passes);
+    EXPECT_EQ(last.iterations, result.iterations);
+    EXPECT_EQ(last.objective, result.objective);
+    EXPECT_EQ(last.lower_bound, result.lower_bound);
+    EXPECT_EQ(last.relative_gap, result.relative_gap);
+    EXPECT_EQ(last.working_pairs, result.working_pairs);
+}
+
 /// Solves on all ranks and on this rank alone: the bits must agree, and the certificate must hold.
 SolveResult expect_same_on_any_ranks(const SubspaceProblem& problem, const SolveOptions& options) {
     const Comm world(MPI_COMM_WORLD);
@@ -35,6 +58,8 @@ SolveResult expect_same_on_any_ranks(const SubspaceProblem& problem, const Solve
     EXPECT_EQ(shared.iterations, alone.iterations);
     EXPECT_EQ(shared.nonzero_groups, alone.nonzero_groups);
     EXPECT_EQ(shared.reason, alone.reason);
+    EXPECT_EQ(shared.history, alone.history);
+    expect_history(alone);
     EXPECT_EQ(shared.coefficients.columns,
               block_range(problem.size(), world.size(), world.rank(), coefficient_tile));
     const SparseCoefficients all = gather(world, shared.coefficients);

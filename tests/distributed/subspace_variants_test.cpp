@@ -19,6 +19,14 @@ void expect_same(const SolveResult& shared, const SolveResult& alone) {
     EXPECT_EQ(shared.lower_bound, alone.lower_bound);
     EXPECT_EQ(shared.nonzero_groups, alone.nonzero_groups);
     EXPECT_EQ(shared.reason, alone.reason);
+    EXPECT_EQ(shared.history, alone.history);
+    ASSERT_FALSE(alone.history.empty());
+    const HistoryRow& last = alone.history.back();
+    EXPECT_DOUBLE_EQ(last.objective, alone.objective);
+    EXPECT_DOUBLE_EQ(last.lower_bound, alone.lower_bound);
+    EXPECT_NEAR(last.relative_gap, alone.relative_gap, 1e-12);
+    EXPECT_EQ(last.working_pairs, alone.working_pairs);
+    EXPECT_GT(alone.history.front().relative_gap, last.relative_gap);
     const auto begin =
         alone.coefficients.offsets[static_cast<std::size_t>(shared.coefficients.columns.begin)];
     const auto first = alone.coefficients.rows.begin() + begin;

@@ -99,6 +99,7 @@ void expect_same(const SolveResult& a, const SolveResult& b) {
     EXPECT_EQ(a.relative_gap, b.relative_gap);
     EXPECT_EQ(a.iterations, b.iterations);
     EXPECT_EQ(a.passes, b.passes);
+    EXPECT_EQ(a.history, b.history);
     EXPECT_EQ(a.reason, b.reason);
     EXPECT_EQ(a.nonzero_groups, b.nonzero_groups);
     EXPECT_EQ(a.coefficients.rows, b.coefficients.rows);

@@ -165,6 +165,7 @@ TEST(TileFile, ReturnsWhatWasWritten) {
     tiles[0].largest_decrease = {1.75, 0.25};
     tiles[0].iterations = 11;
     tiles[0].limited = true;
+    tiles[0].rounds = {{0.0, 2.5, 0, 0}, {1.5, 2.0, 11, 6000000000}};
     tiles[1].offsets = {0, 1};
     tiles[1].rows = {3};
     tiles[1].values = {1.0 / 3.0, 0.0};
@@ -173,6 +174,7 @@ TEST(TileFile, ReturnsWhatWasWritten) {
     tiles[1].passes = 4;
     tiles[1].working_pairs = 5;
     tiles[1].residual = 1e-9;
+    tiles[1].rounds = {{2.0, 2.5, 3, 1}};
     write_tiles(folder.path("tiles.h5"), tiles, 2);
     const std::vector<SolvedTile> read = read_tiles(folder.path("tiles.h5"));
     ASSERT_EQ(read.size(), 2U);
@@ -189,6 +191,7 @@ TEST(TileFile, ReturnsWhatWasWritten) {
         EXPECT_EQ(read[t].passes, tiles[t].passes);
         EXPECT_EQ(read[t].working_pairs, tiles[t].working_pairs);
         EXPECT_EQ(read[t].limited, tiles[t].limited);
+        EXPECT_EQ(read[t].rounds, tiles[t].rounds);
     }
 }
 

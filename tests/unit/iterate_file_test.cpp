@@ -32,6 +32,7 @@ SolveIterate made_iterate(std::int64_t begin, std::int64_t end) {
     iterate.iterations = 40;
     iterate.passes = 3;
     iterate.newton = {4, 35};
+    iterate.history = {{1, 0, 9.5, 1.0 / 3.0, 0.9, 0}, {2, 40, 8.75, 7.5, 1.25 / 8.75, 5000000000}};
     iterate.finished = true;
     iterate.objective = 8.5;
     iterate.residual = 1e-7;
@@ -55,6 +56,7 @@ void expect_equal(const SolveIterate& a, const SolveIterate& b) {
     EXPECT_EQ(a.passes, b.passes);
     EXPECT_EQ(a.newton.wait, b.newton.wait);
     EXPECT_EQ(a.newton.next, b.newton.next);
+    EXPECT_EQ(a.history, b.history);
     EXPECT_EQ(a.finished, b.finished);
     EXPECT_EQ(a.objective, b.objective);
     EXPECT_EQ(a.residual, b.residual);

@@ -62,6 +62,22 @@ TEST(ShapeView, AConeStandsOnItsBase) {
     EXPECT_NEAR(shares.y(), 1.0, 1e-12);
     EXPECT_LT(shares.x(), 0.5);
     EXPECT_LT(shares.z(), 0.5);
+    const Eigen::Vector3d differences = mirror_differences(cone);
+    EXPECT_NEAR(differences.x(), 0.0, 1e-12);
+    EXPECT_NEAR(differences.z(), 0.0, 1e-12);
+    EXPECT_GT(differences.y(), 0.3);
+}
+
+TEST(ShapeView, MirrorDifferencesDoNotDependOnTheUnitAndVanishForABox) {
+    TriMesh box = test::box(3.0, 2.0, 1.0, 6);
+    EXPECT_LT(mirror_differences(box).maxCoeff(), 1e-12);
+    box.vertices.row(0) = (0.5 * box.vertices.row(0)).array().exp().matrix();
+    const Eigen::Vector3d differences = mirror_differences(box);
+    EXPECT_GT(differences.x(), 0.05);
+    EXPECT_LE(differences.x(), 1.0);
+    box.vertices *= 1000.0;
+    EXPECT_TRUE(mirror_differences(box).isApprox(differences, 1e-9));
+    EXPECT_LT(differences.tail<2>().maxCoeff(), 1e-12);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ ln -s "$COSEG" build/bin/coseg
 "$COSEG" generate chair --count 4 --faces 2000 --out generated >/dev/null
 ln -s generated/meshes my_chairs
 commands_of "$COSEG_SOURCE/README.md" 2 >readme.sh
-# Its mpirun has more ranks than small machines have cores.
+# It asks for more ranks than small machines have cores.
 OMPI_MCA_rmaps_base_oversubscribe=1 bash -euo pipefail readme.sh >out 2>err || { tail -n 20 err >&2; fail "a command of README.md"; }
 grep -o "^| \`result/[^\`]*\`" "$COSEG_SOURCE/README.md" | tr -d '|` ' | sed 's/NAME/chair_0003/' >files
 [[ $(wc -l <files) -ge 7 ]] || fail "README.md lists no results"

@@ -36,6 +36,10 @@ assert report["ranks"] == 2 and report["options"]["parts"] == 3 and report["opti
 solved = report["optimisation"]
 assert solved["lower_bound"] <= solved["objective"] <= solved["objective_at_zero"]
 assert solved["relative_gap"] <= report["options"]["gap"]
+history = solved["history"]
+assert 1 < len(history) <= 256 and [row["pass"] for row in history] == sorted({row["pass"] for row in history})
+assert history[-1]["objective"] == solved["objective"] and history[-1]["relative_gap"] == solved["relative_gap"]
+assert history[0]["relative_gap"] > history[-1]["relative_gap"]
 assert abs(sum(report["partition"]["part_area"]) - 1) < 1e-9
 names = [m["name"] for m in report["meshes"]]
 assert names == sorted(f[:-4] for f in os.listdir(f"{folder}/meshes"))

@@ -10,6 +10,7 @@ for count in 1 3; do
     ranks "$count" "$COSEG" run "${quick[@]}" --out "$work/r$count" "$work/set/meshes"
 done
 cmp "$work/r1/contact_sheet.png" "$work/r3/contact_sheet.png" || fail "the sheet depends on the ranks"
+cmp "$work/r1/affinity.png" "$work/r3/affinity.png" || fail "the affinity's picture depends on the ranks"
 echo "ok: the same sheet on 1 and 3 ranks"
 
 kinds=parts,patches,truth,errors,gaussian_curvature,shape_diameter,average_geodesic,shape_context,conformal_factor
@@ -75,5 +76,5 @@ refuses "unknown kind" 2 "patchs" "$COSEG" render "$work/r1" --what patchs
 refuses "truth without its folder" 2 "--truth" "$COSEG" render "$work/r1" --what truth
 refuses "a folder without a run" 3 "report.json" "$COSEG" render "$work/set"
 "$COSEG" run "${quick[@]}" --no-sheet --force --out "$work/r1" "$work/set/meshes/table_0001.off"
-[[ ! -e $work/r1/contact_sheet.png ]] || fail "an earlier run's sheet stays"
+[[ ! -e $work/r1/contact_sheet.png && ! -e $work/r1/affinity.png ]] || fail "an earlier run's sheet stays"
 echo "ok: --no-sheet"

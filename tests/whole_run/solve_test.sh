@@ -33,6 +33,10 @@ assert answer["relative_gap"] <= 1e-8, answer
 assert answer["reason"] == "gap_reached", answer
 assert (answer["n"], answer["h"], answer["lambda"]) == (6, 2, 1), answer
 assert answer["nonzero_groups"] > 0, answer
+for row in answer["history"]:
+    assert row["lower_bound"] <= answer["objective"] * (1 + 1e-12) and row["pass"] > 0, row
+last = answer["history"][-1]
+assert last["objective"] == answer["objective"] and last["relative_gap"] == answer["relative_gap"], last
 PYTHON
 }
 

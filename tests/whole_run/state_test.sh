@@ -22,6 +22,15 @@ same() {
     diff -r "$work/plain/labels" "$work/$1/labels" >/dev/null || fail "$1: other labels than without state"
     diff -r "$work/plain/patches" "$work/$1/patches" >/dev/null || fail "$1: other patches than without state"
 }
+# same_history NAME... : the optimiser's history is that of a run that was never interrupted.
+same_history() {
+    python3 - "$@" <<'END' || fail "another history of the optimiser"
+import json, sys
+first, *others = [json.load(open(name))["optimisation"] for name in sys.argv[1:]]
+assert len(first["history"]) > 1 and first["history"][-1]["relative_gap"] == first["relative_gap"]
+assert all(other["history"] == first["history"] for other in others)
+END
+}
 # reported NAME KEY VALUE : what the report says of the state.
 reported() {
     python3 -c 'import json, sys; s = json.load(open(sys.argv[1]))["state"]; sys.exit(s[sys.argv[2]] != int(sys.argv[3]))' \
@@ -32,7 +41,7 @@ ranks 2 "$COSEG" run "${options[@]}" --parts 2 --patches 20 --out "$work/plain" 
 run 2 first --parts 2 --patches 20 "$work/seven"
 same first && reported first meshes_described 7
 run 3 second --parts 2 --patches 20 "$work/seven"
-same second && reported second meshes_described 0 && reported second meshes_reused 7 && reported second tiles_solved 0 && reported second cuts_reused 1
+same second && same_history "$work"/{plain,first,second}/report.json && reported second meshes_described 0 && reported second meshes_reused 7 && reported second tiles_solved 0 && reported second cuts_reused 1
 echo "ok: a second run describes and solves nothing"
 
 run 2 other_parts --parts 3 --patches 20 --lambda 90 "$work/seven"
@@ -114,6 +123,7 @@ ends_on() {
     diff -r "$work/slow/labels" "$work/resumed.$signal/labels" >/dev/null || fail "$signal: other labels after the restart"
     python3 -c 'import json, sys; sys.exit(json.load(open(sys.argv[1]))["state"]["meshes_reused"] == 0)' \
         "$work/resumed.$signal/report.json" || fail "$signal: nothing was kept"
+    same_history "$work"/{slow,"resumed.$signal"}/report.json
     echo "ok: $signal"
 }
 ends_on USR1 75
