@@ -7,13 +7,17 @@
 // CPU seconds stand beside wall seconds, for machines that are shared.
 
 #include <mpi.h>
-#include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "solvers/blas.hpp"
 #include "solvers/co_segmentation_cut.hpp"
@@ -96,16 +100,18 @@ Eigen::VectorXd patch_histogram(int feature, int patch) {
     return (histogram / histogram.sum()).cwiseSqrt();
 }
 
-coseg::SubspaceProblem generate(int size, const Settings& settings) {
+coseg::SubspaceProblem generate(const coseg::Comm& comm, int size, const Settings& settings) {
     constexpr double weight[features] = {1.0, 0.5, 1.0, 2.0, 1.0};
     coseg::SubspaceProblem problem;
     problem.scope = settings.scope == "mesh" ? PenaltyScope::mesh : PenaltyScope::paper;
     problem.lambda = settings.lambda;
-    for (int h = 0; h < features; ++h) {
-        Eigen::MatrixXd x(bins, size);
-        for (int j = 0; j < size; ++j) x.col(j) = weight[h] * patch_histogram(h, j);
-        problem.features.push_back(std::move(x));
-    }
+    problem.features = coseg::FeatureMatrices(comm, std::vector<Eigen::Index>(features, bins), size);
+    problem.features.for_each_column([&](Eigen::Index j, double* column) {
+        for (int h = 0; h < features; ++h) {
+            Eigen::Map<Eigen::VectorXd>(column + static_cast<std::ptrdiff_t>(h) * bins, bins) =
+                weight[h] * patch_histogram(h, static_cast<int>(j));
+        }
+    });
     for (int j = 0; j < size; ++j) problem.mesh_of.push_back(j / patches_per_mesh);
     const int meshes = problem.mesh_of.back() + 1;
     std::vector<std::string> names;
@@ -117,12 +123,40 @@ coseg::SubspaceProblem generate(int size, const Settings& settings) {
     return problem;
 }
 
-/// Megabytes that all ranks together have held at most so far.
-double peak_megabytes(const coseg::Comm& comm) {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(coseg::all_sum(comm, static_cast<std::int64_t>(usage.ru_maxrss))) / 1024.0;
-}
+/// Looks at this process's memory a hundred times a second.
+class MemoryWatch {
+  public:
+    MemoryWatch() : thread_([this] { look_on(); }) {}
+    ~MemoryWatch() {
+        over_ = true;
+        thread_.join();
+    }
+    MemoryWatch(const MemoryWatch&) = delete;
+    MemoryWatch& operator=(const MemoryWatch&) = delete;
+
+    /// Megabytes that all ranks together have held at most so far. What ranks share - features, and the pages of the program
+    /// and its libraries - is counted once.
+    [[nodiscard]] double peak_megabytes(const coseg::Comm& comm) const {
+        const auto pages = static_cast<double>(coseg::all_sum(comm, own_.load())) +
+                           coseg::all_max(comm, static_cast<double>(shared_.load()));
+        return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
+    }
+
+  private:
+    void look_on() {
+        while (!over_) {
+            std::int64_t size = 0, resident = 0, shared = 0;
+            std::ifstream("/proc/self/statm") >> size >> resident >> shared;
+            own_ = std::max(own_.load(), resident - shared);
+            shared_ = std::max(shared_.load(), shared);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    std::atomic<std::int64_t> own_{0};
+    std::atomic<std::int64_t> shared_{0};
+    std::atomic<bool> over_{false};
+    std::thread thread_;
+};
 
 /// CPU seconds of all ranks.
 double sum_over_ranks(const coseg::Comm& comm, double value) {
@@ -182,7 +216,7 @@ ordered_json pass_figures(const coseg::Comm& comm, const coseg::SubspaceProblem&
 
 /// The normalised cut of the coefficients by formula (8), by one rank, as `coseg run` does it.
 ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& result,
-                         const std::vector<int>& mesh_of, int clusters) {
+                         const std::vector<int>& mesh_of, int clusters, const MemoryWatch& memory) {
     const std::vector<double> area(mesh_of.size(), 1.0);
     const std::vector<coseg::PatchRelation> neighbors;
     const std::vector<coseg::OverlapRelation> overlaps;
@@ -201,11 +235,11 @@ ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& resu
             {"cpu_seconds", coseg::all_max(comm, cpu)},
             {"eigenvalues", cut.starts.front().eigenvalues},
             {"set_aside", cut.starts.front().set_aside},
-            {"peak_megabytes_so_far", peak_megabytes(comm)}};
+            {"peak_megabytes_so_far", memory.peak_megabytes(comm)}};
 }
 
 ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& problem, const Settings& settings,
-                     const std::string& solver) {
+                     const std::string& solver, const MemoryWatch& memory) {
     const double machine = machine_gigaflops(comm);
     MPI_Barrier(comm.raw());
     const double start = MPI_Wtime();
@@ -227,28 +261,29 @@ ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& prob
                       {"passes", result.passes},
                       {"working_pairs", result.working_pairs},
                       {"nonzero_groups", result.nonzero_groups},
-                      {"peak_megabytes_so_far", peak_megabytes(comm)}};
+                      {"peak_megabytes_so_far", memory.peak_megabytes(comm)}};
     if (settings.scope == "paper" && solver == "working-set") {
         json["pass"] = pass_figures(comm, problem, result, machine);
     }
     for (const int clusters : settings.clusters)
-        json["cuts"].push_back(cut_figures(comm, result, problem.mesh_of, clusters));
+        json["cuts"].push_back(cut_figures(comm, result, problem.mesh_of, clusters, memory));
     return json;
 }
 
 void run(const Settings& settings) {
     const coseg::PetscSession session({});
     const coseg::Comm comm(MPI_COMM_WORLD);
+    const MemoryWatch memory;
     ordered_json report{{"version", COSEG_VERSION},      {"build", COSEG_BUILD_TYPE},
                         {"ranks", comm.size()},          {"scope", settings.scope},
                         {"lambda", settings.lambda},     {"gap", settings.gap},
                         {"features", features},          {"bins", bins},
                         {"cases", ordered_json::array()}};
     for (const int size : settings.sizes) {
-        const coseg::SubspaceProblem problem = generate(size, settings);
-        report["cases"].push_back(measure(comm, problem, settings, "working-set"));
+        const coseg::SubspaceProblem problem = generate(comm, size, settings);
+        report["cases"].push_back(measure(comm, problem, settings, "working-set", memory));
         if (settings.scope == "paper" && size <= settings.dense_up_to) {
-            report["cases"].push_back(measure(comm, problem, settings, "dense"));
+            report["cases"].push_back(measure(comm, problem, settings, "dense", memory));
         }
     }
     if (comm.is_root()) std::cout << report.dump(2) << std::endl;

@@ -46,7 +46,7 @@ AllPairsPass::AllPairsPass(const Comm& comm, const SubspaceProblem& problem, con
       problem_(problem),
       stack_(stack),
       limit2_(static_cast<float>(problem.alpha * problem.alpha * (1.0 - 64.0 * single_rounding))),
-      single_columns_(stack.columns.cast<float>()),
+      single_columns_(comm, stack),
       low_prices_(static_cast<std::size_t>(stack.features) * static_cast<std::size_t>(stack.size)),
       pair_scores_(static_cast<std::size_t>(stack.features)) {
     for (int h = 0; h < stack.features; ++h) {

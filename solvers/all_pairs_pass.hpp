@@ -30,6 +30,7 @@ class AllPairsPass {
   public:
     static constexpr int kept = 8;
 
+    /// Collective.
     AllPairsPass(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack);
 
     /// At W = 0: looks for the pairs that pull most; the bound is that of W = 0 if there are none, else 0.
@@ -71,7 +72,7 @@ class AllPairsPass {
     const SubspaceProblem& problem_;
     const FeatureStack& stack_;
     float limit2_;  ///< alpha^2, rounded down: a square above it may be a violation
-    Eigen::MatrixXf single_columns_;
+    SingleColumns single_columns_;
     std::vector<double> largest_norm_;  ///< per feature
     std::vector<double> row_sums_;
     std::vector<float> low_prices_;  ///< H x N, feature h's N values together: v + beta, rounded down
