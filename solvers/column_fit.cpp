@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "src/vector_clones.hpp"
+
 namespace coseg {
 
 namespace {
@@ -65,6 +67,7 @@ void apply_stored_gram(const ColumnFit& fit, std::size_t features, const double*
 
 }  // namespace
 
+COSEG_VECTOR_CLONES
 void feature_products(const FeatureStack& stack, int row, const double* y, double* products) {
     const double* x = column_of(stack, row);
     for (std::size_t h = 0; h < static_cast<std::size_t>(stack.features); ++h) {
@@ -92,6 +95,7 @@ void prepare_column_fit(const FeatureStack& stack, int column, ColumnFit& fit) {
     }
 }
 
+COSEG_VECTOR_CLONES
 void reconstruct(const FeatureStack& stack, const ColumnFit& fit, const double* weights,
                  double* reconstruction) {
     std::fill_n(reconstruction, stack.dimension, 0.0);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "solvers/score_panel.hpp"
 #include "src/block_range.hpp"
 #include "src/error.hpp"
 
@@ -68,6 +69,28 @@ FeatureStack stack_features(const SubspaceProblem& problem) { return FeatureStac
 FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order) {
     const bool in_order = std::is_sorted(order.begin(), order.end());
     return FeatureStack(in_order ? problem.features : problem.features.chosen(comm, order));
+}
+
+PanelColumns::PanelColumns(const Comm& comm, const FeatureStack& stack)
+    : count_((stack.size + panel_rows - 1) / panel_rows),
+      dimension_(stack.dimension),
+      values_(comm, static_cast<std::size_t>(count_) * static_cast<std::size_t>(panel_rows * dimension_)) {
+    const Comm& here = values_.ranks().here();
+    const BlockRange part = block_range(count_, here.size(), here.rank());
+    for (std::int64_t panel = part.begin; panel < part.end; ++panel) {
+        float* rows = values_.data() + panel * panel_rows * dimension_;
+        const auto first = static_cast<Eigen::Index>(panel * panel_rows);
+        const Eigen::Index width = std::min<Eigen::Index>(panel_rows, stack.size - first);
+        for (Eigen::Index r = 0; r < width; ++r) {
+            for (Eigen::Index k = 0; k < dimension_; ++k)
+                rows[k * panel_rows + r] = static_cast<float>(stack.columns(k, first + r));
+        }
+    }
+    values_.fence();
+}
+
+const float* PanelColumns::rows(int panel, int offset) const noexcept {
+    return values_.data() + (static_cast<std::int64_t>(panel) * dimension_ + offset) * panel_rows;
 }
 
 SingleColumns::SingleColumns(const Comm& comm, const FeatureStack& stack)

@@ -44,6 +44,21 @@ FeatureStack stack_features(const SubspaceProblem& problem);
 /// Column `order[i]` of the problem becomes column i; a copy of the features unless that changes nothing. Collective.
 FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order);
 
+/// The columns in single precision, in the panels of score_panel.hpp, the last filled up with zeros; once a node.
+class PanelColumns {
+  public:
+    /// Collective over `comm`, whose ranks all have this stack.
+    PanelColumns(const Comm& comm, const FeatureStack& stack);
+    [[nodiscard]] int count() const noexcept { return count_; }
+    /// The rows of a panel - columns of the stack - from the feature's value `offset` on.
+    [[nodiscard]] const float* rows(int panel, int offset) const noexcept;
+
+  private:
+    int count_;
+    int dimension_;
+    NodeSharedArray<float> values_;
+};
+
 /// D x N values in single precision, once a node.
 class SingleColumns {
   public:
