@@ -18,8 +18,8 @@ namespace {
 constexpr int tile_columns = 4 * static_cast<int>(coefficient_tile);
 static_assert(tile_columns % group_columns == 0);
 constexpr double single_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
-/// Pairs whose norm exceeds its limit by less than this many rounding errors are looked at again in double.
-constexpr double doubtful = 4.0;
+/// Pairs whose norm, with a rounding error on top, exceeds its limit by less than so many are looked at again in double.
+constexpr double doubtful = 5.0;
 
 int longest_feature(const FeatureStack& stack) {
     int longest = 0;
@@ -40,8 +40,8 @@ struct AllPairsPass::Tile {
     Eigen::MatrixXd reconstruction;         ///< D x width
     Eigen::MatrixXd exact_duals;            ///< u, D x width
     std::vector<float> duals;               ///< u, feature by feature in the groups of score_panel
-    Eigen::MatrixXd error;                  ///< H x width: of a score
-    std::vector<float> errors;              ///< likewise, feature by feature
+    std::vector<float> errors;              ///< of a score, feature by feature
+    std::vector<float> doubtful_square;     ///< per column: below, a pair is looked at in double
     std::vector<float> scores;              ///< H times panel_rows x columns
     std::vector<float> squares;             ///< panel_rows x columns: ||(score + error - price)_+||^2
     std::vector<float> least_squares;       ///< per column: of the least score kept, rounded down
@@ -124,6 +124,7 @@ void AllPairsPass::start(const WorkingSet& working, const std::vector<double>& r
 
 /// The dual of the tile's column, as it is and in the groups of score_panel.
 void AllPairsPass::set_column(Tile& tile, int column) const {
+    double errors2 = 0.0;
     for (int h = 0; h < stack_.features; ++h) {
         const int from = stack_.offset[static_cast<std::size_t>(h)];
         const int depth = stack_.rows_of(h);
@@ -139,9 +140,11 @@ void AllPairsPass::set_column(Tile& tile, int column) const {
             squares += u * u;
         }
         const double error = rounding_ * std::sqrt(squares) * largest_norm_[static_cast<std::size_t>(h)];
-        tile.error(h, column) = error;
+        errors2 += error * error;
         tile.errors[static_cast<std::size_t>(h * tile.columns() + column)] = static_cast<float>(error);
     }
+    const double enough = problem_.alpha + doubtful * std::sqrt(errors2);
+    tile.doubtful_square[static_cast<std::size_t>(column)] = static_cast<float>(enough * enough);
 }
 
 void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Tile& tile) const {
@@ -154,13 +157,13 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
     tile.next_working.assign(tile.fits.size(), 0);
     tile.reconstruction.resize(stack_.dimension, tile.width);
     tile.exact_duals.resize(stack_.dimension, tile.width);
-    tile.error.resize(stack_.features, tile.width);
     const auto columns = static_cast<std::size_t>(tile.columns());
     tile.duals.assign(static_cast<std::size_t>(stack_.dimension) * columns, 0.0F);
     tile.errors.assign(static_cast<std::size_t>(stack_.features) * columns, 0.0F);
     tile.scores.resize(static_cast<std::size_t>(stack_.features) * columns * panel_rows);
     tile.squares.resize(columns * panel_rows);
     tile.least_squares.resize(columns);
+    tile.doubtful_square.resize(columns);
     tile.above.resize(columns);
     for (int c = 0; c < tile.width; ++c) {
         const ColumnFit& fit = tile.fits[static_cast<std::size_t>(c)];
@@ -234,21 +237,16 @@ void AllPairsPass::exact_scores(const Tile& tile, int column, int row) {
 
 /// A pair that may violate its limit, going by its scores in single precision.
 void AllPairsPass::inspect_pair(const Tile& tile, int column, int row, PaperDualBound& bound) {
-    const auto features = pair_scores_.size();
-    double squares = 0.0;
-    for (std::size_t h = 0; h < features; ++h) {
-        const std::size_t at =
-            h * static_cast<std::size_t>(tile.columns()) + static_cast<std::size_t>(column);
-        pair_scores_[h] =
-            static_cast<double>(tile.scores[at * panel_rows + static_cast<std::size_t>(row) % panel_rows]);
-        const double price = 2.0 * problem_.lambda * row_sums_[static_cast<std::size_t>(row) * features + h];
-        const double excess = std::max(pair_scores_[h] - price - problem_.beta, 0.0);
-        squares += excess * excess;
-    }
+    const auto c = static_cast<std::size_t>(column);
+    const std::size_t r = static_cast<std::size_t>(row) % panel_rows;
+    const auto columns = static_cast<std::size_t>(tile.columns());
     double rounding = rounding_;
-    if (std::sqrt(squares) < problem_.alpha + doubtful * tile.error.col(column).norm()) {
+    if (tile.squares[c * panel_rows + r] < tile.doubtful_square[c]) {
         exact_scores(tile, column, row);
         rounding = stack_.inner_product_error();
+    } else {
+        for (std::size_t h = 0; h < pair_scores_.size(); ++h)
+            pair_scores_[h] = static_cast<double>(tile.scores[(h * columns + c) * panel_rows + r]);
     }
     const double norm = bound.check_pair(column, row, pair_scores_.data(), rounding);
     if (norm > problem_.alpha) keep(tile, column, row, norm);

@@ -43,7 +43,9 @@ NodeSharedMemory::NodeSharedMemory(NodeRanks ranks, std::size_t bytes, std::uint
                      all_min(ranks_.all(), open_window(bytes) ? 1.0 : 0.0) == 0.0;
         if (fell_back_) ranks_ = ranks_.apart();
     }
-    if (window_ == MPI_WIN_NULL || fell_back_) allocate_own(bytes);
+    agree(ranks_.all(), [&] {
+        if (window_ == MPI_WIN_NULL || fell_back_) allocate_own(bytes);
+    });
     clear(bytes);
 }
 
@@ -65,10 +67,8 @@ bool NodeSharedMemory::open_window(std::size_t bytes) {
 }
 
 void NodeSharedMemory::allocate_own(std::size_t bytes) {
-    agree(ranks_.all(), [&] {
-        own_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, rounded_up(bytes + 1))));
-        if (!own_) throw std::bad_alloc();
-    });
+    own_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, rounded_up(bytes + 1))));
+    if (!own_) throw std::bad_alloc();
     data_ = own_.get();
 }
 

@@ -52,8 +52,10 @@ void expect_filled(const FeatureMatrices& features, double factor = 1.0) {
     }
 }
 
-/// On one node, on nodes of every other rank, of pairs of ranks, of one rank each.
-std::vector<int> nodes_of(const Comm& comm) { return {0, comm.rank() % 2, comm.rank() / 2, comm.rank()}; }
+/// On one node, on nodes of every other rank, of pairs of ranks, of one rank and the rest, of one rank each.
+std::vector<int> nodes_of(const Comm& comm) {
+    return {0, comm.rank() % 2, comm.rank() / 2, comm.rank() == 0 ? 1 : 0, comm.rank()};
+}
 
 TEST(FeatureMatrices, ColumnsOfAllRanksReachAllNodes) {
     const Comm world(MPI_COMM_WORLD);

@@ -73,6 +73,10 @@ TEST(NodeSharedArray, WhatOneRankWritesAllReadOnOneNodeAndOnSeveral) {
     NodeSharedArray<std::int64_t> of_two(NodeRanks(world, world.rank() / 2), 77);
     EXPECT_EQ(of_two.ranks().node_count(), (world.size() + 1) / 2);
     expect_shared(of_two);
+    // A node of one rank beside one of several.
+    NodeSharedArray<std::int64_t> uneven(NodeRanks(world, world.rank() == 0 ? 1 : 0), 300);
+    EXPECT_EQ(uneven.ranks().here().size(), world.rank() == 0 ? 1 : world.size() - 1);
+    expect_shared(uneven);
     NodeSharedArray<std::int64_t> alone(NodeRanks(world, world.rank()), 9);
     expect_shared(alone);
     NodeSharedArray<std::int64_t> empty(world, 0);

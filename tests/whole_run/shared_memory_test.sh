@@ -44,7 +44,7 @@ if ! unshare --mount true 2>/dev/null; then
     exit 77
 fi
 small() {
-    unshare --mount bash -c 'mount -t tmpfs -o size=20m none /dev/shm && head -c 11m /dev/zero >/dev/shm/taken && "$@"' - "$@"
+    unshare --mount bash -c 'mount -t tmpfs -o size=20m none /dev/shm && head -c 14m /dev/zero >/dev/shm/taken && "$@"' - "$@"
 }
 export -f ranks
 export OMPI_MCA_btl_vader_segment_size=1m
