@@ -2,8 +2,9 @@
 // the working set where it fits.
 //
 //   mpirun -n P solver_bench [--sizes 1000,5000,20000] [--dense-up-to 1000] [--scope paper] [--lambda 1000]
-//   [--gap 1e-4] [--links 0]
+//   [--gap 1e-4] [--links 0] [--strong]
 //
+// --strong solves each case on rank 0 alone first, and prints how much longer that takes than all ranks together.
 // CPU seconds stand beside wall seconds, for machines that are shared.
 
 #include <mpi.h>
@@ -75,6 +76,7 @@ struct Settings {
     double lambda = 1000.0;
     double gap = 1e-4;
     int links = 0;
+    bool strong = false;
     std::vector<int> clusters;
 };
 
@@ -270,6 +272,37 @@ ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& prob
     return json;
 }
 
+/// Until rank 0 gets here too; the others sleep meanwhile, and leave it the machine.
+void wait_for_root(const coseg::Comm& comm) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibarrier(comm.raw(), &request);
+    for (int done = 0; done == 0;) {
+        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+        if (done == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+}
+
+/// The case on rank 0 alone, on a problem of its own; null on the other ranks.
+ordered_json measure_alone(const coseg::Comm& comm, int size, const Settings& settings,
+                           const MemoryWatch& memory) {
+    ordered_json alone;
+    const coseg::Comm own = comm.split(comm.rank());
+    if (comm.is_root()) alone = measure(own, generate(own, size, settings), settings, "working-set", memory);
+    wait_for_root(comm);
+    return alone;
+}
+
+/// Wall seconds of one rank over those of all: of the solve, and of a pass where it is timed by itself.
+ordered_json strong_scaling(const ordered_json& alone, const ordered_json& together) {
+    const auto ratio = [&](const ordered_json::json_pointer& what) {
+        return alone.at(what).get<double>() / together.at(what).get<double>();
+    };
+    ordered_json scaling{{"one_rank", alone}, {"solve", ratio(ordered_json::json_pointer("/seconds"))}};
+    if (alone.contains("pass"))
+        scaling["pass"] = ratio(ordered_json::json_pointer("/pass/wall_seconds_per_pass"));
+    return scaling;
+}
+
 void run(const Settings& settings) {
     const coseg::PetscSession session({});
     const coseg::Comm comm(MPI_COMM_WORLD);
@@ -280,8 +313,12 @@ void run(const Settings& settings) {
                         {"features", features},          {"bins", bins},
                         {"cases", ordered_json::array()}};
     for (const int size : settings.sizes) {
+        ordered_json alone;
+        if (settings.strong) alone = measure_alone(comm, size, settings, memory);
         const coseg::SubspaceProblem problem = generate(comm, size, settings);
         report["cases"].push_back(measure(comm, problem, settings, "working-set", memory));
+        if (settings.strong && comm.is_root())
+            report["cases"].back()["strong_scaling"] = strong_scaling(alone, report["cases"].back());
         if (settings.scope == "paper" && size <= settings.dense_up_to) {
             report["cases"].push_back(measure(comm, problem, settings, "dense", memory));
         }
@@ -303,6 +340,8 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--clusters", settings.clusters, "Also cut the answer into so many clusters")
         ->delimiter(',');
     app.add_option("--gap", settings.gap, "Relative gap")->capture_default_str();
+    app.add_flag("--strong", settings.strong,
+                 "Solve on one rank first, and print how much longer that takes");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

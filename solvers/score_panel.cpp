@@ -131,7 +131,7 @@ void find_above(const float* values, int columns, float limit, const float* row_
         const float bound = column_bounds[c];
         for (int r = 0; r < panel_rows; ++r) {
             const float least = row_bounds[r] < bound ? row_bounds[r] : bound;
-            rows |= (values[r] > limit) & (values[r] >= least) ? bit_of.row[r] : 0;
+            rows |= ((values[r] > limit) & (values[r] >= least)) ? bit_of.row[r] : 0;
         }
         above[c] = rows;
     }
