@@ -123,7 +123,7 @@ BinsOfMeshes nearest_words(const Comm& comm, const std::vector<ShapeWordInput>& 
 /// sets (square roots), or columns the mean: where k-means puts its borders is chance, which several sets even out.
 void fill_word_histograms(const Comm& comm, const Collection& collection, const RunOptions& options,
                           const FeatureBins* given, FeatureBins& bins_used, double weight,
-                          FeatureMatrices::Block rows) {
+                          const FeatureMatrices::Block& rows) {
     std::vector<ShapeWordInput> contexts;
     for (const MeshDescription& mesh : collection.local) contexts.push_back({mesh.key, &mesh.shape_context});
     const auto sets = static_cast<double>(options.word_sets);
