@@ -107,6 +107,7 @@ void AllPairsPass::merge_blocks(void* in, void* inout, int* count, MPI_Datatype*
 
 void AllPairsPass::merge_row_candidates() {
     if (comm_.size() == 1) return;
+    const CommunicationClock clock(cost_);
     MPI_Datatype block = MPI_DATATYPE_NULL;
     MPI_Type_contiguous(static_cast<int>(kept * sizeof(Candidate)), MPI_BYTE, &block);
     MPI_Type_commit(&block);
@@ -287,6 +288,16 @@ void AllPairsPass::check_working_pairs(const Tile& tile, PaperDualBound& bound) 
     }
 }
 
+std::int64_t AllPairsPass::sum_over_ranks(std::int64_t local) {
+    const CommunicationClock clock(cost_);
+    return all_sum(comm_, local);
+}
+
+double AllPairsPass::finish(PaperDualBound& bound) {
+    const CommunicationClock clock(cost_);
+    return bound.finish(comm_);
+}
+
 PassFindings AllPairsPass::first(const WorkingSet& working) {
     const PassClock clock(cost_);
     start(working, std::vector<double>(static_cast<std::size_t>(stack_.size) * pair_scores_.size(), 0.0));
@@ -298,7 +309,7 @@ PassFindings AllPairsPass::first(const WorkingSet& working) {
             look_first(tile, panel);
         }
     }
-    const bool optimal = all_sum(comm_, std::int64_t{any_violation_ ? 1 : 0}) == 0;
+    const bool optimal = sum_over_ranks(any_violation_ ? 1 : 0) == 0;
     const double at_zero = stack_.squared_norm * (1.0 - stack_.inner_product_error());
     return collect(working, optimal ? at_zero : 0.0);
 }
@@ -318,16 +329,12 @@ PassFindings AllPairsPass::run(const WorkingSet& working, const std::vector<doub
         }
         bound.end_tile();
     }
-    const double before = MPI_Wtime();
-    const double lower_bound = bound.finish(comm_);
-    cost_.communication_seconds += MPI_Wtime() - before;
+    const double lower_bound = finish(bound);
     return collect(working, lower_bound);
 }
 
 PassFindings AllPairsPass::collect(const WorkingSet& working, double lower_bound) {
-    const double before = MPI_Wtime();
     merge_row_candidates();
-    cost_.communication_seconds += MPI_Wtime() - before;
     PassFindings findings;
     findings.lower_bound = lower_bound;
     findings.entering.resize(working.fits.size());
@@ -348,7 +355,7 @@ PassFindings AllPairsPass::collect(const WorkingSet& working, double lower_bound
         rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
         pairs += static_cast<std::int64_t>(rows.size());
     }
-    findings.entering_pairs = all_sum(comm_, pairs);
+    findings.entering_pairs = sum_over_ranks(pairs);
     return findings;
 }
 

@@ -68,6 +68,8 @@ class AllPairsPass {
     void exact_scores(const Tile& tile, int column, int row);
     void keep(const Tile& tile, int column, int row, double norm);
     void merge_row_candidates();
+    std::int64_t sum_over_ranks(std::int64_t local);
+    double finish(PaperDualBound& bound);
     PassFindings collect(const WorkingSet& working, double lower_bound);
 
     const Comm& comm_;
