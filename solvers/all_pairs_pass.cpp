@@ -14,9 +14,13 @@ namespace coseg {
 
 namespace {
 
-/// Columns looked at together: four coefficient tiles.
-constexpr int tile_columns = 4 * static_cast<int>(coefficient_tile);
-static_assert(tile_columns % group_columns == 0);
+/// Columns looked at together: as many as pay for reading the rows once more, and no more than that where the rows are in
+/// the cache and what a tile keeps is as large as they are. The answer does not depend on it.
+int tile_columns(const FeatureStack& stack) {
+    constexpr int few_rows = 4096;
+    return (stack.size <= few_rows ? 2 : 4) * static_cast<int>(coefficient_tile);
+}
+static_assert(coefficient_tile % group_columns == 0);
 constexpr double single_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 /// Pairs whose norm, with a rounding error on top, exceeds its limit by less than so many are looked at again in double.
 constexpr double doubtful = 5.0;
@@ -161,7 +165,8 @@ void AllPairsPass::set_column(Tile& tile, int column) const {
 void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Tile& tile) const {
     tile.first = static_cast<int>(working.columns.begin + begin);
     tile.first_local = static_cast<int>(begin);
-    tile.width = static_cast<int>(std::min<std::int64_t>(tile_columns, working.columns.size() - begin));
+    tile.width =
+        static_cast<int>(std::min<std::int64_t>(tile_columns(stack_), working.columns.size() - begin));
     tile.groups = (tile.width + group_columns - 1) / group_columns;
     tile.fits = std::span(working.fits)
                     .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(tile.width));
