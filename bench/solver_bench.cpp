@@ -2,18 +2,23 @@
 // the working set where it fits.
 //
 //   mpirun -n P solver_bench [--sizes 1000,5000,20000] [--dense-up-to 1000] [--scope paper] [--lambda 1000]
-//   [--gap 1e-4] [--links 0]
+//   [--gap 1e-4] [--links 0] [--strong]
 //
+// --strong solves each case on rank 0 alone first, and prints how much longer that takes than all ranks together.
 // CPU seconds stand beside wall seconds, for machines that are shared.
 
 #include <mpi.h>
-#include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "solvers/blas.hpp"
 #include "solvers/co_segmentation_cut.hpp"
@@ -71,6 +76,7 @@ struct Settings {
     double lambda = 1000.0;
     double gap = 1e-4;
     int links = 0;
+    bool strong = false;
     std::vector<int> clusters;
 };
 
@@ -96,16 +102,18 @@ Eigen::VectorXd patch_histogram(int feature, int patch) {
     return (histogram / histogram.sum()).cwiseSqrt();
 }
 
-coseg::SubspaceProblem generate(int size, const Settings& settings) {
+coseg::SubspaceProblem generate(const coseg::Comm& comm, int size, const Settings& settings) {
     constexpr double weight[features] = {1.0, 0.5, 1.0, 2.0, 1.0};
     coseg::SubspaceProblem problem;
     problem.scope = settings.scope == "mesh" ? PenaltyScope::mesh : PenaltyScope::paper;
     problem.lambda = settings.lambda;
-    for (int h = 0; h < features; ++h) {
-        Eigen::MatrixXd x(bins, size);
-        for (int j = 0; j < size; ++j) x.col(j) = weight[h] * patch_histogram(h, j);
-        problem.features.push_back(std::move(x));
-    }
+    problem.features = coseg::FeatureMatrices(comm, std::vector<Eigen::Index>(features, bins), size);
+    problem.features.for_each_column([&](Eigen::Index j, double* column) {
+        for (int h = 0; h < features; ++h) {
+            Eigen::Map<Eigen::VectorXd>(column + static_cast<std::ptrdiff_t>(h) * bins, bins) =
+                weight[h] * patch_histogram(h, static_cast<int>(j));
+        }
+    });
     for (int j = 0; j < size; ++j) problem.mesh_of.push_back(j / patches_per_mesh);
     const int meshes = problem.mesh_of.back() + 1;
     std::vector<std::string> names;
@@ -117,12 +125,40 @@ coseg::SubspaceProblem generate(int size, const Settings& settings) {
     return problem;
 }
 
-/// Megabytes that all ranks together have held at most so far.
-double peak_megabytes(const coseg::Comm& comm) {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(coseg::all_sum(comm, static_cast<std::int64_t>(usage.ru_maxrss))) / 1024.0;
-}
+/// Looks at this process's memory a hundred times a second.
+class MemoryWatch {
+  public:
+    MemoryWatch() : thread_([this] { look_on(); }) {}
+    ~MemoryWatch() {
+        over_ = true;
+        thread_.join();
+    }
+    MemoryWatch(const MemoryWatch&) = delete;
+    MemoryWatch& operator=(const MemoryWatch&) = delete;
+
+    /// Megabytes that all ranks together have held at most so far. What ranks share - features, and the pages of the program
+    /// and its libraries - is counted once.
+    [[nodiscard]] double peak_megabytes(const coseg::Comm& comm) const {
+        const auto pages = static_cast<double>(coseg::all_sum(comm, own_.load())) +
+                           coseg::all_max(comm, static_cast<double>(shared_.load()));
+        return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
+    }
+
+  private:
+    void look_on() {
+        while (!over_) {
+            std::int64_t size = 0, resident = 0, shared = 0;
+            std::ifstream("/proc/self/statm") >> size >> resident >> shared;
+            own_ = std::max(own_.load(), resident - shared);
+            shared_ = std::max(shared_.load(), shared);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    std::atomic<std::int64_t> own_{0};
+    std::atomic<std::int64_t> shared_{0};
+    std::atomic<bool> over_{false};
+    std::thread thread_;
+};
 
 /// CPU seconds of all ranks.
 double sum_over_ranks(const coseg::Comm& comm, double value) {
@@ -169,12 +205,15 @@ ordered_json pass_figures(const coseg::Comm& comm, const coseg::SubspaceProblem&
     const double operations =
         2.0 * features * bins * static_cast<double>(coseg::allowed_pair_count(problem)) * result.passes;
     const double rate = 1e-9 * operations / cpu;
+    // A rank that waits for another spins: on a machine with other work that is much of a short pass.
+    const double waiting = sum_over_ranks(comm, result.pass_cost.waiting_cpu_seconds);
     const double measured = sum_over_ranks(comm, message_bytes);
     return {{"cpu_seconds_per_pass", cpu / result.passes},
             {"wall_seconds_per_pass", wall / result.passes},
             {"gigaflops_per_core", rate},
             {"machine_gigaflops_per_core", machine},
             {"share_of_machine", rate / machine},
+            {"share_of_machine_while_not_waiting", rate / machine * cpu / (cpu - waiting)},
             {"message_bytes_per_rank", measured / comm.size()},
             {"model_bytes_per_rank", model_bytes(comm, problem, result)},
             {"communication_share", communication / wall}};
@@ -182,7 +221,7 @@ ordered_json pass_figures(const coseg::Comm& comm, const coseg::SubspaceProblem&
 
 /// The normalised cut of the coefficients by formula (8), by one rank, as `coseg run` does it.
 ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& result,
-                         const std::vector<int>& mesh_of, int clusters) {
+                         const std::vector<int>& mesh_of, int clusters, const MemoryWatch& memory) {
     const std::vector<double> area(mesh_of.size(), 1.0);
     const std::vector<coseg::PatchRelation> neighbors;
     const std::vector<coseg::OverlapRelation> overlaps;
@@ -201,11 +240,11 @@ ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& resu
             {"cpu_seconds", coseg::all_max(comm, cpu)},
             {"eigenvalues", cut.starts.front().eigenvalues},
             {"set_aside", cut.starts.front().set_aside},
-            {"peak_megabytes_so_far", peak_megabytes(comm)}};
+            {"peak_megabytes_so_far", memory.peak_megabytes(comm)}};
 }
 
 ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& problem, const Settings& settings,
-                     const std::string& solver) {
+                     const std::string& solver, const MemoryWatch& memory) {
     const double machine = machine_gigaflops(comm);
     MPI_Barrier(comm.raw());
     const double start = MPI_Wtime();
@@ -227,28 +266,64 @@ ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& prob
                       {"passes", result.passes},
                       {"working_pairs", result.working_pairs},
                       {"nonzero_groups", result.nonzero_groups},
-                      {"peak_megabytes_so_far", peak_megabytes(comm)}};
+                      {"peak_megabytes_so_far", memory.peak_megabytes(comm)}};
     if (settings.scope == "paper" && solver == "working-set") {
         json["pass"] = pass_figures(comm, problem, result, machine);
     }
     for (const int clusters : settings.clusters)
-        json["cuts"].push_back(cut_figures(comm, result, problem.mesh_of, clusters));
+        json["cuts"].push_back(cut_figures(comm, result, problem.mesh_of, clusters, memory));
     return json;
+}
+
+/// Until rank 0 gets here too; the others sleep meanwhile, and leave it the machine.
+void wait_for_root(const coseg::Comm& comm) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibarrier(comm.raw(), &request);
+    for (int done = 0; done == 0;) {
+        MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+        if (done == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+}
+
+/// The case on rank 0 alone, on a problem of its own; null on the other ranks.
+ordered_json measure_alone(const coseg::Comm& comm, int size, const Settings& settings,
+                           const MemoryWatch& memory) {
+    ordered_json alone;
+    const coseg::Comm own = comm.split(comm.rank());
+    if (comm.is_root()) alone = measure(own, generate(own, size, settings), settings, "working-set", memory);
+    wait_for_root(comm);
+    return alone;
+}
+
+/// Wall seconds of one rank over those of all: of the solve, and of a pass where it is timed by itself.
+ordered_json strong_scaling(const ordered_json& alone, const ordered_json& together) {
+    const auto ratio = [&](const ordered_json::json_pointer& what) {
+        return alone.at(what).get<double>() / together.at(what).get<double>();
+    };
+    ordered_json scaling{{"one_rank", alone}, {"solve", ratio(ordered_json::json_pointer("/seconds"))}};
+    if (alone.contains("pass"))
+        scaling["pass"] = ratio(ordered_json::json_pointer("/pass/wall_seconds_per_pass"));
+    return scaling;
 }
 
 void run(const Settings& settings) {
     const coseg::PetscSession session({});
     const coseg::Comm comm(MPI_COMM_WORLD);
+    const MemoryWatch memory;
     ordered_json report{{"version", COSEG_VERSION},      {"build", COSEG_BUILD_TYPE},
                         {"ranks", comm.size()},          {"scope", settings.scope},
                         {"lambda", settings.lambda},     {"gap", settings.gap},
                         {"features", features},          {"bins", bins},
                         {"cases", ordered_json::array()}};
     for (const int size : settings.sizes) {
-        const coseg::SubspaceProblem problem = generate(size, settings);
-        report["cases"].push_back(measure(comm, problem, settings, "working-set"));
+        ordered_json alone;
+        if (settings.strong) alone = measure_alone(comm, size, settings, memory);
+        const coseg::SubspaceProblem problem = generate(comm, size, settings);
+        report["cases"].push_back(measure(comm, problem, settings, "working-set", memory));
+        if (settings.strong && comm.is_root())
+            report["cases"].back()["strong_scaling"] = strong_scaling(alone, report["cases"].back());
         if (settings.scope == "paper" && size <= settings.dense_up_to) {
-            report["cases"].push_back(measure(comm, problem, settings, "dense"));
+            report["cases"].push_back(measure(comm, problem, settings, "dense", memory));
         }
     }
     if (comm.is_root()) std::cout << report.dump(2) << std::endl;
@@ -268,6 +343,8 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--clusters", settings.clusters, "Also cut the answer into so many clusters")
         ->delimiter(',');
     app.add_option("--gap", settings.gap, "Relative gap")->capture_default_str();
+    app.add_flag("--strong", settings.strong,
+                 "Solve on one rank first, and print how much longer that takes");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

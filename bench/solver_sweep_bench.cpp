@@ -65,18 +65,20 @@ Eigen::VectorXd column_of(const std::string& kind, int rows, int feature, int pa
 
 SubspaceProblem generate(const std::string& kind, const Settings& settings) {
     SubspaceProblem problem;
+    std::vector<Eigen::MatrixXd> matrices;
     for (int h = 0; h < features; ++h) {
         Eigen::MatrixXd x(settings.rows, settings.size);
         for (int j = 0; j < settings.size; ++j) x.col(j) = column_of(kind, settings.rows, h, j);
-        problem.features.push_back(std::move(x));
+        matrices.push_back(std::move(x));
     }
+    problem.features = matrices;
     for (int j = 0; j < settings.size; ++j) problem.mesh_of.push_back(j / 10);
     return problem;
 }
 
 double mean_square(const SubspaceProblem& problem) {
     double squares = 0.0;
-    for (const Eigen::MatrixXd& x : problem.features) squares += x.squaredNorm();
+    for (const Eigen::MatrixXd& x : problem.features.matrices()) squares += x.squaredNorm();
     return squares / static_cast<double>(problem.size() * problem.feature_count());
 }
 

@@ -101,6 +101,7 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     log.begin("features");
     const PatchFeatures features = patch_features(world, collection, options, &model.bins);
     log.end("in the bins and words of " + command.run);
+    warn_of_copies(features, log);
     log.begin("assign");
     const Assigned assigned = assign_parts(world, collection, features, model, options);
     log.end(describe(assigned.optimisation));

@@ -13,13 +13,15 @@ namespace coseg {
 namespace {
 
 /// The run's patches, then those of one new mesh; only the new columns have rows, those of the run's meshes.
-SubspaceProblem problem_of(const RunModel& model, const PatchFeatures& features, int first, int count) {
+SubspaceProblem problem_of(const Comm& self, const RunModel& model, const PatchFeatures& features, int first,
+                           int count) {
     SubspaceProblem problem;
-    for (std::size_t h = 0; h < model.histograms.size(); ++h) {
-        const Eigen::MatrixXd& known = model.histograms[h];
-        Eigen::MatrixXd both(known.rows(), known.cols() + count);
-        both << known, features.histograms[h].middleCols(first, count);
-        problem.features.push_back(std::move(both));
+    std::vector<Eigen::Index> rows;
+    for (const Eigen::MatrixXd& known : model.histograms) rows.push_back(known.rows());
+    problem.features = FeatureMatrices(self, rows, model.histograms.front().cols() + count);
+    for (std::size_t h = 0; h < rows.size(); ++h) {
+        FeatureMatrices::Block both = problem.features.fill(h);
+        both << model.histograms[h], features.histograms[h].middleCols(first, count);
     }
     const auto meshes = static_cast<int>(model.mesh_names.size());
     problem.scope = PenaltyScope::mesh;
@@ -78,7 +80,10 @@ enum Figure { at_zero, objective, bound, residual, iterations, passes, pairs, re
 Eigen::VectorXd figures_of(const SolveResult& result, const PatchFeatures& features,
                            const SubspaceProblem& problem, int first, int count) {
     double zero = 0.0;
-    for (const Eigen::MatrixXd& x : features.histograms) zero += x.middleCols(first, count).squaredNorm();
+    for (std::size_t h = 0; h < features.histograms.size(); ++h) {
+        const Eigen::MatrixXd own = features.histograms[h].middleCols(first, count);
+        zero += own.squaredNorm();
+    }
     const double others = result.objective_at_zero - zero;  // of the run's columns, which have no rows here
     Eigen::VectorXd figures(static_cast<Eigen::Index>(figure_count));
     figures << zero, result.objective - others, std::max(result.lower_bound - others, 0.0),
@@ -96,7 +101,7 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Col
                         const PatchFeatures& features, const RunModel& model, const RunOptions& options) {
     const int first = collection.numbering.first(mesh.mesh, 0);
     const int count = collection.numbering.count(mesh.mesh);
-    const SubspaceProblem problem = problem_of(model, features, first, count);
+    const SubspaceProblem problem = problem_of(self, model, features, first, count);
     const SolveOptions solve{
         .gap = options.gap, .max_iterations = options.max_iterations, .max_seconds = options.max_seconds};
     const SolveResult result = solve_subspace(self, problem, solve);

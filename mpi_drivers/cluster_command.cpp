@@ -44,13 +44,15 @@ void broadcast(const Comm& comm, std::vector<double>& values) {
     values = all_gather(comm, std::span<const double>(values));
 }
 
-/// Rank 0 reads; relations stay there, since each is to be given to the cut by one rank.
-FeatureFile read_and_broadcast(const Comm& comm, const std::string& path) {
+/// Rank 0 reads, and its features become those of all; relations stay there, since each is to be given to the cut by
+/// one rank.
+FeatureFile read_and_broadcast(const Comm& comm, const std::string& path, FeatureMatrices& features) {
     FeatureFile file;
     agree(comm, [&] {
         if (comm.is_root()) file = read_feature_file(path);
     });
-    broadcast_matrices(comm, file.features);
+    features = share_matrices(comm, file.features);
+    file.features.clear();
     broadcast(comm, file.mesh_of);
     broadcast(comm, file.patch_area);
     broadcast_texts(comm, file.mesh_names);
@@ -58,9 +60,10 @@ FeatureFile read_and_broadcast(const Comm& comm, const std::string& path) {
 }
 
 /// The certificate and the limits of allowed pairs refer to groups; without any each item is one.
-SubspaceProblem make_problem(FeatureFile& file, const ClusterSettings& settings) {
+SubspaceProblem make_problem(const FeatureFile& file, FeatureMatrices features,
+                             const ClusterSettings& settings) {
     SubspaceProblem problem;
-    problem.features = std::move(file.features);
+    problem.features = std::move(features);
     problem.alpha = settings.alpha;
     problem.beta = settings.beta;
     problem.lambda = settings.lambda;
@@ -78,13 +81,17 @@ SubspaceProblem make_problem(FeatureFile& file, const ClusterSettings& settings)
     return problem;
 }
 
-void scale_columns(SubspaceProblem& problem) {
-    for (Eigen::MatrixXd& feature : problem.features) {
-        for (Eigen::Index j = 0; j < feature.cols(); ++j) {
-            const double norm = feature.col(j).norm();
-            if (norm > 0.0) feature.col(j) /= norm;
+/// Collective.
+void scale_columns(FeatureMatrices& features) {
+    const std::vector<Eigen::Index>& offsets = features.offsets();
+    features.for_each_column([&](Eigen::Index, double* column) {
+        for (std::size_t h = 0; h < features.size(); ++h) {
+            Eigen::Map<Eigen::VectorXd> x(column + offsets[h], offsets[h + 1] - offsets[h]);
+            const Eigen::VectorXd aligned = x;  // for its sum not to depend on where the column lies
+            const double norm = aligned.norm();
+            if (norm > 0.0) x /= norm;
         }
-    }
+    });
 }
 
 CutResult cut(const Comm& comm, const FeatureFile& file, const SolveResult& solution,
@@ -129,10 +136,11 @@ void cluster_file(const Invocation& invocation, const ClusterSettings& settings)
     if (!unknown.empty())
         throw AgreedError(ExitCode::usage, "after --: " + unknown + " is not an option of PETSc or SLEPc");
     const PetscSession session(invocation.petsc_arguments);
-    FeatureFile file = read_and_broadcast(comm, settings.path);
-    SubspaceProblem problem = make_problem(file, settings);
+    FeatureMatrices features;
+    const FeatureFile file = read_and_broadcast(comm, settings.path, features);
+    SubspaceProblem problem = make_problem(file, std::move(features), settings);
     agree(comm, [&] { validate(problem); });
-    if (settings.unit_columns) scale_columns(problem);
+    if (settings.unit_columns) scale_columns(problem.features);
     const SolveResult solution =
         solve_variant(comm, problem, variant_of(settings.variant), 0, settings.options);
     write_coefficients(comm, solution, settings.coefficients);

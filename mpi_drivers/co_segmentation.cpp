@@ -165,7 +165,7 @@ void release_histograms(PatchFeatures& features, const RunOptions& options) {
     const bool still_wanted = options.partition == "diffusion" || options.segments;
     if (still_wanted) return;
     features.choice = choice_descriptors(features, options);
-    features.histograms.clear();
+    features.histograms = {};
 }
 
 Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures& features,
@@ -229,6 +229,7 @@ PatchFeatures feature_stage(const Comm& comm, Collection& collection, const RunO
     PatchFeatures features = patch_features(comm, collection, options);
     log.end(with_unit(static_cast<std::int64_t>(features.histograms.size()), "feature", "features") + " of " +
             std::to_string(options.bins) + " bins");
+    warn_of_copies(features, log);
     return features;
 }
 

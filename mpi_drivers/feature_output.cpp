@@ -15,7 +15,7 @@ void write_features(const Comm& comm, const Collection& collection, const PatchF
         FeatureFile file;
         for (const int h : features.feature_of)
             file.names.emplace_back(feature_names[static_cast<std::size_t>(h)]);
-        file.features = features.histograms;
+        file.features = features.histograms.matrices();
         file.mesh_of = collection.numbering.mesh_of();
         for (const MeshFacts& mesh : collection.meshes) file.mesh_names.push_back(mesh.name);
         file.patch_area = features.patch_area;

@@ -85,16 +85,29 @@ Eigen::MatrixXd mesh_histograms(const MeshDescription& mesh, const std::vector<i
     return columns;
 }
 
-Eigen::MatrixXd gathered_histograms(const Comm& comm, const Collection& collection, const BinsOfMeshes& bins,
-                                    const RunOptions& options) {
-    std::vector<Eigen::MatrixXd> local;
+/// The rows from `first` on, as many as there are bins, become the histograms of this rank's patches, divided and weighted.
+void fill_histograms(const Comm& comm, const Collection& collection, const BinsOfMeshes& bins,
+                     const RunOptions& options, double divisor, double weight, Eigen::Index first,
+                     FeatureMatrices::Block rows) {
     agree(comm, [&] {
         for (std::size_t k = 0; k < collection.local.size(); ++k) {
             const MeshDescription& mesh = collection.local[k];
-            local.push_back(mesh_histograms(mesh, bins[k], collection.numbering.count(mesh.mesh), options));
+            const int count = collection.numbering.count(mesh.mesh);
+            rows.block(first, collection.numbering.first(mesh.mesh, 0), options.bins, count) =
+                weight * (mesh_histograms(mesh, bins[k], count, options) / divisor);
         }
     });
-    return gather_patch_columns(comm, collection, local, options.bins);
+}
+
+/// Who has filled which patches.
+std::vector<FilledColumns> filled_columns(const Collection& collection) {
+    std::vector<FilledColumns> filled;
+    for (std::size_t m = 0; m < collection.meshes.size(); ++m) {
+        const int begin = collection.numbering.first(static_cast<int>(m), 0);
+        filled.push_back(
+            {begin, begin + collection.numbering.count(static_cast<int>(m)), collection.meshes[m].owner});
+    }
+    return filled;
 }
 
 BinsOfMeshes nearest_words(const Comm& comm, const std::vector<ShapeWordInput>& contexts,
@@ -108,13 +121,13 @@ BinsOfMeshes nearest_words(const Comm& comm, const std::vector<ShapeWordInput>& 
 
 /// Histograms over several sets of words, one below the other, scaled so that inner products are the mean over the
 /// sets (square roots), or columns the mean: where k-means puts its borders is chance, which several sets even out.
-Eigen::MatrixXd word_histograms(const Comm& comm, const Collection& collection, const RunOptions& options,
-                                const FeatureBins* given, FeatureBins& bins_used) {
+void fill_word_histograms(const Comm& comm, const Collection& collection, const RunOptions& options,
+                          const FeatureBins* given, FeatureBins& bins_used, double weight,
+                          const FeatureMatrices::Block& rows) {
     std::vector<ShapeWordInput> contexts;
     for (const MeshDescription& mesh : collection.local) contexts.push_back({mesh.key, &mesh.shape_context});
     const auto sets = static_cast<double>(options.word_sets);
     const bool is_root = scaling_of(options.histogram) == HistogramScaling::square_root;
-    Eigen::MatrixXd all(options.bins * options.word_sets, collection.numbering.patch_count());
     for (int set = 0; set < options.word_sets; ++set) {
         const std::uint64_t seed =
             set == 0 ? options.seed : hash_words({options.seed, static_cast<std::uint64_t>(set)});
@@ -125,10 +138,9 @@ Eigen::MatrixXd word_histograms(const Comm& comm, const Collection& collection, 
                                       ? nearest_words(comm, contexts, *known)
                                       : shape_words(comm, contexts, options.bins, seed, &centres);
         bins_used.words.push_back(known != nullptr ? *known : centres);
-        all.middleRows(static_cast<Eigen::Index>(set) * options.bins, options.bins) =
-            gathered_histograms(comm, collection, bins, options) / (is_root ? std::sqrt(sets) : sets);
+        fill_histograms(comm, collection, bins, options, is_root ? std::sqrt(sets) : sets, weight,
+                        static_cast<Eigen::Index>(set) * options.bins, rows);
     }
-    return all;
 }
 
 std::vector<double> gathered_areas(const Comm& comm, const Collection& collection) {
@@ -161,22 +173,36 @@ void release_descriptors(Collection& collection) {
 PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options,
                              const FeatureBins* given) {
     PatchFeatures features;
+    std::vector<Eigen::Index> rows;
     for (int h = 0; h < feature_total; ++h) {
-        const double weight = options.feature_weights[static_cast<std::size_t>(h)];
-        if (!(weight > 0.0)) continue;
-        const auto feature = static_cast<Feature>(h);
+        if (!(options.feature_weights[static_cast<std::size_t>(h)] > 0.0)) continue;
+        features.feature_of.push_back(h);
+        const int sets = static_cast<Feature>(h) == Feature::shape_context ? options.word_sets : 1;
+        rows.push_back(static_cast<Eigen::Index>(sets) * options.bins);
+    }
+    features.histograms = FeatureMatrices(comm, rows, collection.numbering.patch_count());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto feature = static_cast<Feature>(features.feature_of[k]);
+        const double weight = options.feature_weights[static_cast<std::size_t>(features.feature_of[k])];
         if (feature == Feature::shape_context) {
-            features.histograms.push_back(weight *
-                                          word_histograms(comm, collection, options, given, features.bins));
+            fill_word_histograms(comm, collection, options, given, features.bins, weight,
+                                 features.histograms.fill(k));
         } else {
             const BinsOfMeshes bins = scalar_bins(comm, collection, feature, options, given, features);
-            features.histograms.push_back(weight * gathered_histograms(comm, collection, bins, options));
+            fill_histograms(comm, collection, bins, options, 1.0, weight, 0, features.histograms.fill(k));
         }
-        features.feature_of.push_back(h);
     }
+    features.histograms.share(filled_columns(collection));
     features.patch_area = gathered_areas(comm, collection);
     release_descriptors(collection);
     return features;
+}
+
+void warn_of_copies(const PatchFeatures& features, const StageLog& log) {
+    if (!features.histograms.fell_back()) return;
+    log.warn(
+        "shared memory (/dev/shm) has no room for the features, so every rank holds a copy of its own; "
+        "the results are the same");
 }
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// From descriptors of faces to features of patches: agreed ranges, shape words, histograms, gathered on every rank.
+// From descriptors of faces to features of patches: agreed ranges, shape words, histograms, gathered on every node.
 
 #include <Eigen/Core>
 #include <string>
@@ -9,7 +9,9 @@
 #include "mpi_drivers/run_options.hpp"
 #include "solvers/partition_choice.hpp"
 #include "src/comm.hpp"
+#include "src/feature_matrices.hpp"
 #include "src/feature_range.hpp"
+#include "src/stage_log.hpp"
 
 namespace coseg {
 
@@ -27,8 +29,8 @@ struct FeatureBins {
 };
 
 struct PatchFeatures {
-    std::vector<Eigen::MatrixXd>
-        histograms;  ///< features with positive weight: bins x N each (shape contexts: bins word_sets x N), times the weight
+    /// Features with positive weight: bins x N each (shape contexts: bins word_sets x N), times the weight; once a node.
+    FeatureMatrices histograms;
     std::vector<int> feature_of;     ///< which Feature each of them is
     std::vector<double> patch_area;  ///< N, each mesh's over-segmentation sums to 1
     /// What the choice of the partition looks at, where the histograms are gone before it; see choice_descriptors.
@@ -41,5 +43,8 @@ struct PatchFeatures {
 /// every rank and on any number of ranks. Releases the descriptors of `collection`, which no later stage looks at.
 PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options,
                              const FeatureBins* given = nullptr);
+
+/// Says so where every rank has features of its own, for want of shared memory.
+void warn_of_copies(const PatchFeatures& features, const StageLog& log);
 
 }  // namespace coseg

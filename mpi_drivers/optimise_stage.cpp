@@ -89,12 +89,12 @@ SubspaceProblem subspace_problem(const Collection& collection, const RunOptions&
 
 }  // namespace
 
-Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatures& features,
+Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                       const RunOptions& options, SolveJournal* journal, StageLog* log) {
     agree(comm, [&] { refuse_contradictions(options); });
     const int feature = chosen_feature(features, options);
     SubspaceProblem problem = subspace_problem(collection, options);
-    problem.features = std::move(features.histograms);
+    problem.features = features.histograms;
     Optimisation done;
     done.variant = options.variant;
     done.scope = problem.scope == PenaltyScope::mesh ? "mesh" : "paper";
@@ -115,7 +115,6 @@ Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatu
                              .progress = progress,
                              .journal = journal};
     done.result = solve_variant(comm, problem, variant_of(options.variant), feature, solve);
-    features.histograms = std::move(problem.features);
     done.features = feature_labels(features, options);
     done.warning = limit_warning(done.result);
     return done;

@@ -28,10 +28,9 @@ struct Optimisation {
     std::string warning;             ///< empty, or why the coefficients deserve a look
 };
 
-/// journal: see SolveOptions; log: is told of the progress, and may be null. The histograms of `features` are lent to the solver, so that they are in memory once, and are
-/// back when it returns. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what
+/// journal: see SolveOptions; log: is told of the progress, and may be null. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what
 /// solve_variant throws.
-Optimisation optimise(const Comm& comm, const Collection& collection, PatchFeatures& features,
+Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                       const RunOptions& options, SolveJournal* journal = nullptr, StageLog* log = nullptr);
 
 /// One line for the log.

@@ -19,8 +19,8 @@ MeshDescription relations_of(const MeshDescription& whole, int number) {
 
 }  // namespace
 
-PartCollection part_of_collection(const Collection& collection, const PatchFeatures& features,
-                                  const std::vector<int>& meshes) {
+PartCollection part_of_collection(const Comm& comm, const Collection& collection,
+                                  const PatchFeatures& features, const std::vector<int>& meshes) {
     PartCollection part;
     const PatchNumbering& numbering = collection.numbering;
     std::vector<int> counts;
@@ -38,8 +38,7 @@ PartCollection part_of_collection(const Collection& collection, const PatchFeatu
         if (place != meshes.end() && *place == mesh.mesh)
             part.collection.local.push_back(relations_of(mesh, static_cast<int>(place - meshes.begin())));
     }
-    for (const Eigen::MatrixXd& whole : features.histograms)
-        part.features.histograms.emplace_back(whole(Eigen::all, part.patch_of));
+    part.features.histograms = features.histograms.chosen(comm, part.patch_of);
     part.features.feature_of = features.feature_of;
     for (const int patch : part.patch_of)
         part.features.patch_area.push_back(features.patch_area[static_cast<std::size_t>(patch)]);

@@ -154,8 +154,8 @@ ModelPatches model_patches(const Collection& collection, const PatchFeatures& fe
         const int first = collection.numbering.first(mesh, 0);
         for (int p = first; p < first + collection.numbering.count(mesh); ++p) patches.columns.push_back(p);
     }
-    for (const Eigen::MatrixXd& x : features.histograms)
-        patches.histograms.emplace_back(x(Eigen::all, patches.columns).cast<float>());
+    for (std::size_t h = 0; h < features.histograms.size(); ++h)
+        patches.histograms.emplace_back(features.histograms[h](Eigen::all, patches.columns).cast<float>());
     return patches;
 }
 

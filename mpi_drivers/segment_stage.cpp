@@ -104,8 +104,9 @@ Collection segment_collection(const Collection& collection, const Segments& segm
     return result;
 }
 
-Eigen::MatrixXd segment_histograms(const Eigen::MatrixXd& patches, const std::vector<double>& area,
-                                   const Segments& segments, const std::string& scaling) {
+Eigen::MatrixXd segment_histograms(const FeatureMatrices::ConstBlock& patches,
+                                   const std::vector<double>& area, const Segments& segments,
+                                   const std::string& scaling) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(patches.rows(), segments.first_of.back());
     Eigen::VectorXd areas = Eigen::VectorXd::Zero(segments.first_of.back());
     for (Eigen::Index i = 0; i < patches.cols(); ++i) {
@@ -126,9 +127,11 @@ Eigen::MatrixXd segment_histograms(const Eigen::MatrixXd& patches, const std::ve
 PatchFeatures segment_features(const PatchFeatures& features, const Segments& segments, int oversegmentations,
                                const RunOptions& options) {
     PatchFeatures result;
-    for (const Eigen::MatrixXd& patches : features.histograms)
-        result.histograms.push_back(
-            segment_histograms(patches, features.patch_area, segments, options.histogram));
+    std::vector<Eigen::MatrixXd> histograms;
+    for (std::size_t h = 0; h < features.histograms.size(); ++h)
+        histograms.push_back(
+            segment_histograms(features.histograms[h], features.patch_area, segments, options.histogram));
+    result.histograms = histograms;
     result.feature_of = features.feature_of;
     result.patch_area.assign(at(segments.first_of.back()), 0.0);
     for (std::size_t i = 0; i < features.patch_area.size(); ++i)
@@ -143,7 +146,7 @@ CutResult partition_segments(const Comm& comm, const Collection& collection, con
                              CutJournal* cuts) {
     const Segments segments = find_segments(comm, collection, first.part_of_patch);
     const Collection whole = segment_collection(collection, segments);
-    PatchFeatures described =
+    const PatchFeatures described =
         segment_features(features, segments, collection.numbering.oversegmentations(), options);
     const Optimisation optimisation = optimise(comm, whole, described, options, journal);
     const CutResult cut =

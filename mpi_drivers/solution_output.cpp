@@ -1,39 +1,11 @@
 #include "mpi_drivers/solution_output.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "io/feature_file.hpp"
 #include "src/error.hpp"
 
 namespace coseg {
-
-namespace {
-
-void broadcast_values(const Comm& comm, Eigen::MatrixXd& matrix) {
-    constexpr std::int64_t chunk = 1 << 27;
-    for (std::int64_t at = 0; at < matrix.size(); at += chunk) {
-        MPI_Bcast(matrix.data() + at, static_cast<int>(std::min(chunk, matrix.size() - at)), MPI_DOUBLE, 0,
-                  comm.raw());
-    }
-}
-
-}  // namespace
-
-void broadcast_matrices(const Comm& comm, std::vector<Eigen::MatrixXd>& matrices) {
-    auto count = static_cast<std::int64_t>(matrices.size());
-    MPI_Bcast(&count, 1, MPI_INT64_T, 0, comm.raw());
-    std::vector<std::int64_t> sizes;
-    for (const Eigen::MatrixXd& matrix : matrices) sizes.insert(sizes.end(), {matrix.rows(), matrix.cols()});
-    sizes.resize(static_cast<std::size_t>(2 * count));
-    MPI_Bcast(sizes.data(), static_cast<int>(sizes.size()), MPI_INT64_T, 0, comm.raw());
-    agree(comm, [&] {
-        if (comm.is_root()) return;
-        matrices.clear();
-        for (std::size_t h = 0; h < sizes.size(); h += 2) matrices.emplace_back(sizes[h], sizes[h + 1]);
-    });
-    for (Eigen::MatrixXd& matrix : matrices) broadcast_values(comm, matrix);
-}
 
 std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result) {
     nlohmann::ordered_json history = nlohmann::ordered_json::array();

@@ -1,18 +1,13 @@
 #pragma once
-// What `coseg solve` and `coseg cluster` share: matrices from rank 0 to all, the certificate as JSON, W to a file, and
-// the refusals that follow a solve.
+// What `coseg solve` and `coseg cluster` share: the certificate as JSON, W to a file, and the refusals that follow a
+// solve.
 
-#include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "solvers/subspace_solver.hpp"
 #include "src/comm.hpp"
 
 namespace coseg {
-
-/// Rank 0's matrices on all ranks. Collective; throws AgreedError where they do not fit into memory.
-void broadcast_matrices(const Comm& comm, std::vector<Eigen::MatrixXd>& matrices);
 
 /// Objective, bounds, gap, counts, reason and the problem's sizes and penalties: the text of a JSON object.
 std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result);

@@ -29,7 +29,7 @@ struct SolveSettings {
 };
 
 /// Rank 0 reads; the others learn of a bad file before they wait for its content.
-ProblemFile read_and_broadcast(const Comm& comm, const std::string& path) {
+ProblemFile read_and_broadcast(const Comm& comm, const std::string& path, FeatureMatrices& features) {
     ProblemFile file;
     agree(comm, [&] {
         if (comm.is_root()) file = read_problem_file(path);
@@ -39,13 +39,15 @@ ProblemFile read_and_broadcast(const Comm& comm, const std::string& path) {
     file.lambda = numbers[0];
     file.alpha = numbers[1];
     file.beta = numbers[2];
-    broadcast_matrices(comm, file.features);
+    features = share_matrices(comm, file.features);
+    file.features.clear();
     return file;
 }
 
-SubspaceProblem make_problem(ProblemFile file, const SolveSettings& settings) {
+SubspaceProblem make_problem(const ProblemFile& file, FeatureMatrices features,
+                             const SolveSettings& settings) {
     SubspaceProblem problem;
-    problem.features = std::move(file.features);
+    problem.features = std::move(features);
     problem.lambda = file.lambda;
     problem.alpha = file.alpha;
     problem.beta = file.beta;
@@ -68,7 +70,9 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
             "--links needs --scope mesh and a variant that keeps it; scope paper, ssc and ssqp are "
             "over all pairs");
     }
-    const SubspaceProblem problem = make_problem(read_and_broadcast(comm, settings.path), settings);
+    FeatureMatrices features;
+    const ProblemFile file = read_and_broadcast(comm, settings.path, features);
+    const SubspaceProblem problem = make_problem(file, std::move(features), settings);
     const double start = MPI_Wtime();
     const SolveResult result =
         solve_variant(comm, problem, variant_of(settings.variant), settings.feature - 1, settings.options);

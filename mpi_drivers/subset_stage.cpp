@@ -115,7 +115,7 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
     SubsetOutcome outcome;
     double agreement = 0.0;
     for (std::size_t s = 0; s < plan.subsets.size(); ++s) {
-        PartCollection part = part_of_collection(collection, features, plan.subsets[s]);
+        PartCollection part = part_of_collection(comm, collection, features, plan.subsets[s]);
         Optimisation optimised = optimise(comm, part.collection, part.features, options, journal);
         const CutResult cut =
             cut_or_found(comm, part.collection, part.features, optimised.result.coefficients, options, cuts);

@@ -59,10 +59,9 @@ ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& opti
     hasher.add(static_cast<int>(scope));
     hasher.add(std::span<const int>(mesh_of));
     for (const std::vector<int>& allowed : allowed_meshes) hasher.add(std::span<const int>(allowed));
-    for (const Eigen::MatrixXd& feature : features) {
-        hasher.add(std::int64_t{feature.rows()});
-        hasher.add(std::span<const double>(feature.data(), static_cast<std::size_t>(feature.size())));
-    }
+    for (const Eigen::Index begin : features.offsets()) hasher.add(std::int64_t{begin});
+    hasher.add(std::span<const double>(features.data(),
+                                       static_cast<std::size_t>(features.dimension() * features.columns())));
     static_cast<void>(max_seconds);  // a tile that the clock cut short is not kept
     static_cast<void>(progress);
     static_cast<void>(journal);

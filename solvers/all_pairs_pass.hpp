@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "solvers/dual_bound.hpp"
@@ -22,7 +23,7 @@ struct PassFindings {
     std::int64_t entering_pairs = 0;         ///< all ranks
 };
 
-/// Blocked matrix products in single precision; pairs too close to their limit for that are looked at in
+/// Matrix products in single precision (score_panel.hpp); pairs too close to their limit for that are looked at in
 /// double, so the bound holds under rounding. Nothing of size N^2 is stored.
 ///
 /// Of the violating pairs, the `kept` worst of each row and of each column enter.
@@ -30,7 +31,12 @@ class AllPairsPass {
   public:
     static constexpr int kept = 8;
 
+    /// Collective.
     AllPairsPass(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack);
+
+    ~AllPairsPass();
+    AllPairsPass(const AllPairsPass&) = delete;
+    AllPairsPass& operator=(const AllPairsPass&) = delete;
 
     /// At W = 0: looks for the pairs that pull most; the bound is that of W = 0 if there are none, else 0.
     PassFindings first(const WorkingSet& working);
@@ -52,32 +58,34 @@ class AllPairsPass {
     static void merge_blocks(void* in, void* inout, int* count, MPI_Datatype* type);
 
     void start(const WorkingSet& working, const std::vector<double>& row_sums);
-    [[nodiscard]] Tile start_tile(const WorkingSet& working, std::int64_t begin) const;
-    template <class Scan>
-    void score_tile(Tile& tile, Scan&& scan);
-    void score_chunk(Tile& tile, int begin, int end) const;
-    void sum_squares(Tile& tile, int column, int begin, int end) const;
+    void start_tile(const WorkingSet& working, std::int64_t begin, Tile& tile) const;
+    void set_column(Tile& tile, int column) const;
+    void score(Tile& tile, int panel) const;
     void check_working_pairs(const Tile& tile, PaperDualBound& bound);
-    [[nodiscard]] bool any_other_above(const float* squares, int begin, int end, int column) const;
-    void scan_first(const Tile& tile, int column, int begin, int end);
-    void scan_column(Tile& tile, int column, int begin, int end, PaperDualBound& bound);
-    void inspect_pair(const Tile& tile, int column, int row, int begin, PaperDualBound& bound);
+    void look_first(Tile& tile, int panel);
+    void look(Tile& tile, int panel, PaperDualBound& bound);
+    void inspect_pair(const Tile& tile, int column, int row, PaperDualBound& bound);
     void exact_scores(const Tile& tile, int column, int row);
     void keep(const Tile& tile, int column, int row, double norm);
     void merge_row_candidates();
+    std::int64_t sum_over_ranks(std::int64_t local);
+    double finish(PaperDualBound& bound);
     PassFindings collect(const WorkingSet& working, double lower_bound);
 
     const Comm& comm_;
     const SubspaceProblem& problem_;
     const FeatureStack& stack_;
-    float limit2_;  ///< alpha^2, rounded down: a square above it may be a violation
-    Eigen::MatrixXf single_columns_;
+    float limit2_;     ///< alpha^2, rounded down: a square above it may be a violation
+    double rounding_;  ///< of a score, relative to its factors' norms
+    PanelColumns panels_;
     std::vector<double> largest_norm_;  ///< per feature
     std::vector<double> row_sums_;
-    std::vector<float> low_prices_;  ///< H x N, feature h's N values together: v + beta, rounded down
+    std::size_t padded_rows_;        ///< in whole panels
+    std::vector<float> low_prices_;  ///< H times padded_rows_ together: v + beta, rounded down
     std::vector<Candidate> row_best_;
     std::vector<Candidate> column_best_;  ///< of the owned columns
-    std::vector<float> row_least_;        ///< square of the least score kept of each row
+    std::vector<float> row_least_;        ///< square of the least score kept of each row, padded
+    std::unique_ptr<Tile> tile_;          ///< its arrays are used again
     std::vector<double> pair_scores_;     ///< of the pair at hand
     bool any_violation_ = false;
     PassCost cost_;

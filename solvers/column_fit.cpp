@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "src/vector_clones.hpp"
+
 namespace coseg {
 
 namespace {
@@ -10,8 +12,9 @@ namespace {
 /// Above this many pairs a column's Gram matrices take more memory, and in time as much, as products with X.
 constexpr std::size_t largest_gram = 160;
 
-/// Four accumulators in a fixed order: fast without leave to reorder, and the same bits at any alignment.
-double inner(const double* x, const double* y, int n) noexcept {
+/// Four accumulators in a fixed order: fast without leave to reorder, and the same bits at any alignment. Inlined for
+/// the callers' vectors.
+__attribute__((always_inline)) inline double inner(const double* x, const double* y, int n) noexcept {
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
     int k = 0;
     for (; k + 4 <= n; k += 4) {
@@ -65,6 +68,7 @@ void apply_stored_gram(const ColumnFit& fit, std::size_t features, const double*
 
 }  // namespace
 
+COSEG_VECTOR_CLONES
 void feature_products(const FeatureStack& stack, int row, const double* y, double* products) {
     const double* x = column_of(stack, row);
     for (std::size_t h = 0; h < static_cast<std::size_t>(stack.features); ++h) {
@@ -92,6 +96,7 @@ void prepare_column_fit(const FeatureStack& stack, int column, ColumnFit& fit) {
     }
 }
 
+COSEG_VECTOR_CLONES
 void reconstruct(const FeatureStack& stack, const ColumnFit& fit, const double* weights,
                  double* reconstruction) {
     std::fill_n(reconstruction, stack.dimension, 0.0);

@@ -14,8 +14,8 @@ namespace coseg {
 
 namespace {
 
-void check(const std::vector<Eigen::MatrixXd>& features, const DiffusionOptions& options) {
-    const auto patches = static_cast<std::int64_t>(features.empty() ? 0 : features.front().cols());
+void check(const FeatureMatrices& features, const DiffusionOptions& options) {
+    const std::int64_t patches = features.columns();
     if (patches > options.most) {
         throw Error(ExitCode::usage, "clusters of " + std::to_string(patches) +
                                          " patches by descriptors alone need a dense affinity; " +
@@ -27,10 +27,13 @@ void check(const std::vector<Eigen::MatrixXd>& features, const DiffusionOptions&
 }
 
 /// N x N, without its diagonal's rounding.
-Eigen::MatrixXd squared_distances(const std::vector<Eigen::MatrixXd>& features) {
-    const Eigen::Index patches = features.front().cols();
+Eigen::MatrixXd squared_distances(const FeatureMatrices& features) {
+    const Eigen::Index patches = features.columns();
     Eigen::MatrixXd products = Eigen::MatrixXd::Zero(patches, patches);
-    for (const Eigen::MatrixXd& x : features) products.noalias() += x.transpose() * x;
+    for (std::size_t h = 0; h < features.size(); ++h) {
+        const FeatureMatrices::ConstBlock x = features[h];
+        products.noalias() += x.transpose() * x;
+    }
     const Eigen::VectorXd squares = products.diagonal();
     Eigen::MatrixXd distances = squares.replicate(1, patches) + squares.transpose().replicate(patches, 1);
     distances = (distances - products - products.transpose()).cwiseMax(0.0);
@@ -126,7 +129,7 @@ Clustering one_start(const Eigen::MatrixXd& points, int parts, std::uint64_t see
 
 }  // namespace
 
-std::vector<int> diffusion_clusters(const Comm& comm, const std::vector<Eigen::MatrixXd>& features,
+std::vector<int> diffusion_clusters(const Comm& comm, const FeatureMatrices& features,
                                     const DiffusionOptions& options) {
     Clustering best;
     agree(comm, [&] {

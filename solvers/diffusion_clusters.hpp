@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/comm.hpp"
+#include "src/feature_matrices.hpp"
 
 namespace coseg {
 
@@ -24,7 +25,7 @@ struct DiffusionOptions {
 /// labels. Source: Sidi, van Kaick, Kleiman, Zhang, Cohen-Or 2011. Deviates: Euclidean distances of the histograms as
 /// they come in place of the earth mover's; k-means in place of agglomeration; no statistical model afterwards.
 /// Collective. Throws AgreedError: usage (more than `most` patches, fewer patches than parts), not_converged.
-std::vector<int> diffusion_clusters(const Comm& comm, const std::vector<Eigen::MatrixXd>& features,
+std::vector<int> diffusion_clusters(const Comm& comm, const FeatureMatrices& features,
                                     const DiffusionOptions& options);
 
 }  // namespace coseg

@@ -13,15 +13,6 @@
 namespace coseg {
 
 COSEG_FOR_EVERY_WIDTH
-void add_excess_squares(const float* scores, const float* prices, float error, std::size_t count,
-                        float* squares) {
-    for (std::size_t p = 0; p < count; ++p) {
-        const float excess = std::max(scores[p] + error - prices[p], 0.0F);
-        squares[p] += excess * excess;
-    }
-}
-
-COSEG_FOR_EVERY_WIDTH
 void add_excess_squares(const float* scores, float price, std::size_t count, float* squares) {
     for (std::size_t p = 0; p < count; ++p) {
         const float excess = std::max(scores[p] - price, 0.0F);
@@ -35,26 +26,6 @@ void add_excess_squares(const double* scores, double price, std::size_t count, d
         const double excess = std::max(scores[p] - price, 0.0);
         squares[p] += excess * excess;
     }
-}
-
-COSEG_FOR_EVERY_WIDTH
-bool any_above(const float* values, float limit, std::size_t count) {
-    int hits = 0;
-    for (std::size_t p = 0; p < count; ++p) hits |= values[p] > limit ? 1 : 0;
-    return hits != 0;
-}
-
-COSEG_FOR_EVERY_WIDTH
-bool any_above(const float* values, float limit, const float* own_bounds, float common_bound,
-               std::size_t count) {
-    int hits = 0;
-    for (std::size_t p = 0; p < count; ++p) {
-        const int above = values[p] > limit ? 1 : 0;
-        const int own = values[p] >= own_bounds[p] ? 1 : 0;
-        const int common = values[p] >= common_bound ? 1 : 0;
-        hits |= above & (own | common);
-    }
-    return hits != 0;
 }
 
 }  // namespace coseg

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "solvers/score_panel.hpp"
+#include "src/block_range.hpp"
 #include "src/error.hpp"
 
 namespace coseg {
@@ -45,34 +48,60 @@ void measure_column(FeatureStack& stack, Eigen::Index i, CompensatedSum& squared
 
 }  // namespace
 
-FeatureStack stack_features(const SubspaceProblem& problem, std::span<const int> order) {
-    if (problem.size() > std::numeric_limits<int>::max()) {
+FeatureStack::FeatureStack(FeatureMatrices given)
+    : matrices(std::move(given)), columns(matrices.data(), matrices.dimension(), matrices.columns()) {
+    if (columns.cols() > std::numeric_limits<int>::max()) {
         throw Error(ExitCode::input, "more than 2^31 columns; cluster fewer patches");
     }
-    FeatureStack stack;
-    stack.features = problem.feature_count();
-    stack.size = static_cast<int>(problem.size());
-    stack.offset.assign(1, 0);
-    for (const Eigen::MatrixXd& feature : problem.features) {
-        stack.offset.push_back(stack.offset.back() + static_cast<int>(feature.rows()));
-    }
-    stack.dimension = stack.offset.back();
-    stack.columns.resize(stack.dimension, stack.size);
-    stack.norm.resize(stack.features, stack.size);
-    stack.entry_sum.resize(stack.features, stack.size);
-    CompensatedSum squared_norm;
-    for (Eigen::Index i = 0; i < stack.size; ++i) {
-        const Eigen::Index from = order.empty() ? i : order[static_cast<std::size_t>(i)];
-        for (int h = 0; h < stack.features; ++h) {
-            const Eigen::MatrixXd& feature = problem.features[static_cast<std::size_t>(h)];
-            std::copy_n(
-                feature.data() + from * feature.rows(), feature.rows(),
-                stack.columns.data() + i * stack.dimension + stack.offset[static_cast<std::size_t>(h)]);
+    features = static_cast<int>(matrices.size());
+    size = static_cast<int>(columns.cols());
+    dimension = static_cast<int>(columns.rows());
+    for (const Eigen::Index begin : matrices.offsets()) offset.push_back(static_cast<int>(begin));
+    norm.resize(features, size);
+    entry_sum.resize(features, size);
+    CompensatedSum squares;
+    for (Eigen::Index i = 0; i < size; ++i) measure_column(*this, i, squares);
+    squared_norm = squares.sum + squares.lost;
+}
+
+FeatureStack stack_features(const SubspaceProblem& problem) { return FeatureStack(problem.features); }
+
+FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order) {
+    const bool in_order = std::is_sorted(order.begin(), order.end());
+    return FeatureStack(in_order ? problem.features : problem.features.chosen(comm, order));
+}
+
+PanelColumns::PanelColumns(const Comm& comm, const FeatureStack& stack)
+    : count_((stack.size + panel_rows - 1) / panel_rows),
+      dimension_(stack.dimension),
+      values_(comm, static_cast<std::size_t>(count_) * static_cast<std::size_t>(panel_rows * dimension_)) {
+    const Comm& here = values_.ranks().here();
+    const BlockRange part = block_range(count_, here.size(), here.rank());
+    for (std::int64_t panel = part.begin; panel < part.end; ++panel) {
+        float* rows = values_.data() + panel * panel_rows * dimension_;
+        const auto first = static_cast<Eigen::Index>(panel * panel_rows);
+        const Eigen::Index width = std::min<Eigen::Index>(panel_rows, stack.size - first);
+        for (Eigen::Index r = 0; r < width; ++r) {
+            for (Eigen::Index k = 0; k < dimension_; ++k)
+                rows[k * panel_rows + r] = static_cast<float>(stack.columns(k, first + r));
         }
-        measure_column(stack, i, squared_norm);
     }
-    stack.squared_norm = squared_norm.sum + squared_norm.lost;
-    return stack;
+    values_.fence();
+}
+
+const float* PanelColumns::rows(int panel, int offset) const noexcept {
+    return values_.data() + (static_cast<std::int64_t>(panel) * dimension_ + offset) * panel_rows;
+}
+
+SingleColumns::SingleColumns(const Comm& comm, const FeatureStack& stack)
+    : values_(comm, static_cast<std::size_t>(stack.columns.size())) {
+    const Comm& here = values_.ranks().here();
+    const BlockRange part = block_range(stack.size, here.size(), here.rank());
+    const std::int64_t begin = part.begin * stack.dimension;
+    const std::int64_t end = part.end * stack.dimension;
+    std::transform(stack.columns.data() + begin, stack.columns.data() + end, values_.data() + begin,
+                   [](double value) { return static_cast<float>(value); });
+    values_.fence();
 }
 
 }  // namespace coseg

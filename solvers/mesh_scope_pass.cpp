@@ -88,9 +88,9 @@ struct MeshScopePass::Scores {
     std::int64_t stride = 0;
 };
 
-MeshScopePass::MeshScopePass(const FeatureStack& stack, const MeshOrder& meshes,
+MeshScopePass::MeshScopePass(const Comm& comm, const FeatureStack& stack, const MeshOrder& meshes,
                              const ColumnPenalties& penalties)
-    : stack_(stack), meshes_(meshes), penalties_(penalties), single_columns_(stack.columns.cast<float>()) {
+    : stack_(stack), meshes_(meshes), penalties_(penalties), single_columns_(comm, stack) {
     for (int h = 0; h < stack.features; ++h) {
         double largest = 0.0;
         for (Eigen::Index i = 0; i < stack.size; ++i) largest = std::max(largest, stack.norm(h, i));

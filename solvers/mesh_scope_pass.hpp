@@ -47,7 +47,9 @@ struct PassColumn {
 /// blocked matrix products. Single precision finds the same answers with a wider allowance for rounding.
 class MeshScopePass {
   public:
-    MeshScopePass(const FeatureStack& stack, const MeshOrder& meshes, const ColumnPenalties& penalties);
+    /// `stack`: in the order of `meshes`. Collective; the rest is not.
+    MeshScopePass(const Comm& comm, const FeatureStack& stack, const MeshOrder& meshes,
+                  const ColumnPenalties& penalties);
 
     std::vector<ColumnVerdict> single_precision(const std::vector<PassColumn>& columns,
                                                 const std::vector<int>& allowed);
@@ -74,7 +76,7 @@ class MeshScopePass {
     const FeatureStack& stack_;
     const MeshOrder& meshes_;
     const ColumnPenalties& penalties_;
-    Eigen::MatrixXf single_columns_;
+    SingleColumns single_columns_;
     std::vector<double> largest_norm_;  ///< per feature, over all columns
     std::tuple<std::vector<float>, std::vector<double>> squares_;
 };

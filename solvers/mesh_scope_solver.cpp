@@ -48,12 +48,12 @@ struct Totals {
 
 class MeshScopeSolver {
   public:
-    MeshScopeSolver(const SubspaceProblem& problem, const SolveOptions& options)
+    MeshScopeSolver(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options)
         : options_(options),
           penalties_{problem.alpha, problem.beta, problem.lambda},
           meshes_(sort_by_mesh(problem.mesh_of)),
-          stack_(stack_features(problem, meshes_.order)),
-          pass_(stack_, meshes_, penalties_),
+          stack_(stack_features(comm, problem, meshes_.order)),
+          pass_(comm, stack_, meshes_, penalties_),
           allowed_meshes_(problem.allowed_meshes),
           start_(MPI_Wtime()) {}
 
@@ -366,7 +366,7 @@ void finish_result(const Comm& comm, const Totals& totals, const MeshScopeSolver
 }  // namespace
 
 SolveResult solve_mesh_scope(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options) {
-    MeshScopeSolver solver(problem, options);
+    MeshScopeSolver solver(comm, problem, options);
     SolveResult result;
     const BlockRange owned = block_range(problem.size(), comm.size(), comm.rank(), coefficient_tile);
     result.coefficients = {problem.size(), owned, problem.feature_count(), {0}, {}, {}};

@@ -33,4 +33,22 @@ class PassClock {
     double cpu_;
 };
 
+/// Adds the time of its life, of collective calls, to a cost.
+class CommunicationClock {
+  public:
+    explicit CommunicationClock(PassCost& cost)
+        : cost_(cost), wall_(MPI_Wtime()), cpu_(PassClock::cpu_seconds()) {}
+    ~CommunicationClock() {
+        cost_.communication_seconds += MPI_Wtime() - wall_;
+        cost_.waiting_cpu_seconds += PassClock::cpu_seconds() - cpu_;
+    }
+    CommunicationClock(const CommunicationClock&) = delete;
+    CommunicationClock& operator=(const CommunicationClock&) = delete;
+
+  private:
+    PassCost& cost_;
+    double wall_;
+    double cpu_;
+};
+
 }  // namespace coseg

@@ -13,7 +13,7 @@ std::string place(std::size_t feature, Eigen::Index column) {
     return "feature " + std::to_string(feature + 1) + ", column " + std::to_string(column + 1);
 }
 
-void validate_column(const Eigen::MatrixXd& feature, std::size_t h, Eigen::Index j) {
+void validate_column(const FeatureMatrices::ConstBlock& feature, std::size_t h, Eigen::Index j) {
     double sum = 0.0;
     for (Eigen::Index k = 0; k < feature.rows(); ++k) {
         const double value = feature(k, j);
@@ -90,13 +90,7 @@ void validate(const SubspaceProblem& problem) {
         throw Error(ExitCode::input, "the problem has no feature; give at least one");
     if (problem.size() == 0) throw Error(ExitCode::input, "the problem has no columns; give at least one");
     for (std::size_t h = 0; h < problem.features.size(); ++h) {
-        const Eigen::MatrixXd& feature = problem.features[h];
-        if (feature.cols() != problem.size()) {
-            throw Error(ExitCode::input, "feature " + std::to_string(h + 1) + " has " +
-                                             std::to_string(feature.cols()) + " columns but feature 1 has " +
-                                             std::to_string(problem.size()) +
-                                             "; all must have one per patch");
-        }
+        const FeatureMatrices::ConstBlock feature = problem.features[h];
         for (Eigen::Index j = 0; j < feature.cols(); ++j) validate_column(feature, h, j);
     }
     validate_penalty(problem.alpha, "alpha");

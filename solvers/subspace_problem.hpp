@@ -13,20 +13,21 @@
 // Source: Hu, Fan, Liu, "Co-Segmentation of 3D Shapes via Subspace Clustering", SGP 2012, equations (6)-(7);
 //   scope mesh is an exclusive group lasso (Zhou, Jin, Hoi 2010) over meshes.
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "src/feature_matrices.hpp"
 
 namespace coseg {
 
 enum class PenaltyScope { paper, mesh };
 
 struct SubspaceProblem {
-    std::vector<Eigen::MatrixXd> features;  ///< H matrices, d_h x N, nonnegative, the same on every rank
-    double alpha = 0.01;                    ///< of ||W||_{2,1}; >= 0
-    double beta = 0.1;                      ///< of ||W||_{1,1}; >= 0
-    double lambda = 1000.0;                 ///< of the scope's squared sums; >= 0
+    FeatureMatrices features;  ///< H matrices, d_h x N, nonnegative, the same on every rank
+    double alpha = 0.01;       ///< of ||W||_{2,1}; >= 0
+    double beta = 0.1;         ///< of ||W||_{1,1}; >= 0
+    double lambda = 1000.0;    ///< of the scope's squared sums; >= 0
     PenaltyScope scope = PenaltyScope::paper;
     std::vector<int> mesh_of;  ///< N meshes, >= 0; scope mesh only: no pairs inside a mesh
     /// Scope mesh only: for each mesh, ascending, the meshes in which its patches may have matches (the rows
@@ -34,15 +35,15 @@ struct SubspaceProblem {
     std::vector<std::vector<int>> allowed_meshes;
 
     [[nodiscard]] int feature_count() const noexcept { return static_cast<int>(features.size()); }
-    /// N. Requires a feature.
-    [[nodiscard]] std::int64_t size() const noexcept { return features.front().cols(); }
+    /// N.
+    [[nodiscard]] std::int64_t size() const noexcept { return features.columns(); }
 };
 
 /// Pairs (i, j), i != j, that may have a value: all in scope paper, those of allowed meshes in scope mesh.
 std::int64_t allowed_pair_count(const SubspaceProblem& problem);
 
 /// Throws Error(input), naming feature and column (both counted from 1), where the problem cannot be solved:
-/// no feature, matrices of different N, no column, a value that is negative or not finite, a column of zeros,
+/// no feature, no column, a value that is negative or not finite, a column of zeros,
 /// a penalty that is negative or not finite, `mesh_of` of the wrong length. Does not communicate.
 void validate(const SubspaceProblem& problem);
 

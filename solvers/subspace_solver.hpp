@@ -29,6 +29,7 @@ struct PassCost {
     double cpu_seconds = 0.0;
     double wall_seconds = 0.0;           ///< the following included
     double communication_seconds = 0.0;  ///< in collective calls, waiting for other ranks included
+    double waiting_cpu_seconds = 0.0;    ///< spent there; a part of cpu_seconds
 };
 
 struct SolveResult {

@@ -23,23 +23,15 @@ SubspaceProblem without_features(const SubspaceProblem& problem) {
     return copy;
 }
 
-SubspaceProblem of_one_feature(const SubspaceProblem& problem, std::size_t feature) {
+SubspaceProblem of_one_feature(const Comm& comm, const SubspaceProblem& problem, std::size_t feature) {
     SubspaceProblem one = without_features(problem);
-    one.features = {problem.features[feature]};
+    one.features = problem.features.only(comm, feature);
     return one;
 }
 
 SubspaceProblem stacked(const SubspaceProblem& problem) {
     SubspaceProblem one = without_features(problem);
-    Eigen::Index rows = 0;
-    for (const Eigen::MatrixXd& feature : problem.features) rows += feature.rows();
-    Eigen::MatrixXd all(rows, problem.size());
-    Eigen::Index at = 0;
-    for (const Eigen::MatrixXd& feature : problem.features) {
-        all.middleRows(at, feature.rows()) = feature;
-        at += feature.rows();
-    }
-    one.features = {std::move(all)};
+    one.features = problem.features.joined();
     return one;
 }
 
@@ -74,7 +66,7 @@ SolveResult solve_independent(const Comm& comm, const SubspaceProblem& problem, 
     std::vector<SparseCoefficients> coefficients;
     std::vector<SolveHistory> histories;
     for (std::size_t h = 0; h < problem.features.size(); ++h) {
-        SolveResult one = solve_subspace(comm, of_one_feature(problem, h), options);
+        SolveResult one = solve_subspace(comm, of_one_feature(comm, problem, h), options);
         sum.objective += one.objective;
         sum.objective_at_zero += one.objective_at_zero;
         sum.lower_bound += one.lower_bound;
@@ -156,7 +148,8 @@ SolveResult solve_variant(const Comm& comm, const SubspaceProblem& problem, Subs
         case SubspaceVariant::multi_feature:
             break;
         case SubspaceVariant::single_feature:
-            return solve_subspace(comm, of_one_feature(problem, static_cast<std::size_t>(feature)), options);
+            return solve_subspace(comm, of_one_feature(comm, problem, static_cast<std::size_t>(feature)),
+                                  options);
         case SubspaceVariant::independent:
             return solve_independent(comm, problem, options);
         case SubspaceVariant::concatenated:

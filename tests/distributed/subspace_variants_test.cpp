@@ -99,7 +99,7 @@ TEST(SubspaceVariants, IndependentFeaturesOfScopeMeshAddUp) {
     problem.scope = PenaltyScope::mesh;
     const SolveResult apart = solve_both_ways(problem, SubspaceVariant::independent);
     double objective = 0.0, bound = 0.0;
-    for (const Eigen::MatrixXd& feature : problem.features) {
+    for (const Eigen::MatrixXd& feature : problem.features.matrices()) {
         const SolveResult one = solve_subspace(Comm(MPI_COMM_SELF), of_features(problem, {feature}), precise);
         objective += one.objective;
         bound += one.lower_bound;
@@ -179,7 +179,7 @@ TEST(SubspaceVariants, L1WithoutPenaltyIsLeastSquares) {
     options.max_iterations = 20000;
     const SolveResult result =
         solve_variant(Comm(MPI_COMM_WORLD), problem, SubspaceVariant::ssc_signed, 0, options);
-    const Eigen::MatrixXd& x = problem.features.front();
+    const Eigen::MatrixXd x = problem.features[0];
     double squares = 0.0;
     for (Eigen::Index j = 0; j < x.cols(); ++j) {
         Eigen::MatrixXd others(x.rows(), x.cols() - 1);
@@ -193,7 +193,7 @@ TEST(SubspaceVariants, DuplicateColumnsAndOneColumn) {
     for (const SubspaceVariant variant : {SubspaceVariant::ssc, SubspaceVariant::ssc_signed}) {
         SubspaceProblem problem = sample();
         problem.beta = 1e-2;
-        for (Eigen::MatrixXd& feature : problem.features) feature.col(33) = feature.col(2);
+        change_features(problem, [](Eigen::MatrixXd& x) { x.col(33) = x.col(2); });
         solve_both_ways(problem, variant);
         const SubspaceProblem one = random_subspace_problem(2, 5, 1, 1, 53);
         const SolveResult result = solve_variant(Comm(MPI_COMM_WORLD), one, variant, 0, precise);

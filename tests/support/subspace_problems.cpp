@@ -11,6 +11,7 @@ namespace coseg {
 SubspaceProblem random_subspace_problem(int features, int rows, int columns, int patches,
                                         std::uint64_t seed) {
     SubspaceProblem problem;
+    std::vector<Eigen::MatrixXd> matrices;
     constexpr int parts = 4;
     for (int h = 0; h < features; ++h) {
         Eigen::MatrixXd x(rows, columns);
@@ -22,10 +23,17 @@ SubspaceProblem random_subspace_problem(int features, int rows, int columns, int
             for (int k = 0; k < rows; ++k) x(k, j) = std::pow(prototype.uniform(), 3.0) + 0.3 * own.uniform();
             x.col(j).normalize();
         }
-        problem.features.push_back(x);
+        matrices.push_back(x);
     }
+    problem.features = matrices;
     for (int j = 0; j < columns; ++j) problem.mesh_of.push_back(j / patches);
     return problem;
+}
+
+void change_features(SubspaceProblem& problem, const std::function<void(Eigen::MatrixXd&)>& change) {
+    std::vector<Eigen::MatrixXd> matrices = problem.features.matrices();
+    for (Eigen::MatrixXd& feature : matrices) change(feature);
+    problem.features = matrices;
 }
 
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients) {

@@ -2,6 +2,7 @@
 // Subspace problems made in code, and the objective written out as the formulas have it.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "solvers/coefficients.hpp"
@@ -12,6 +13,9 @@ namespace coseg {
 /// H features of `rows` rows and N columns drawn around `parts` prototypes, columns of unit 2-norm; the
 /// penalties are the struct's defaults, consecutive columns make meshes of `patches`.
 SubspaceProblem random_subspace_problem(int features, int rows, int columns, int patches, std::uint64_t seed);
+
+/// Changes every feature of a problem; those that it has been copied from keep theirs.
+void change_features(SubspaceProblem& problem, const std::function<void(Eigen::MatrixXd&)>& change);
 
 /// W_h of all columns, dense: `weights[h]` is N x N. Requires coefficients that own all columns.
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients);
