@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <span>
 
 #include "src/seeded_random.hpp"
 
@@ -26,6 +27,19 @@ SubspaceProblem random_subspace_problem(int features, int rows, int columns, int
     }
     for (int j = 0; j < columns; ++j) problem.mesh_of.push_back(j / patches);
     return problem;
+}
+
+SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& mine) {
+    SparseCoefficients all{mine.size, {0, mine.size}, mine.features, {0}, {}, {}};
+    all.rows = all_gather(comm, std::span<const int>(mine.rows));
+    all.values = all_gather(comm, std::span<const double>(mine.values));
+    std::vector<std::int64_t> counts;
+    for (std::size_t c = 0; c + 1 < mine.offsets.size(); ++c)
+        counts.push_back(mine.offsets[c + 1] - mine.offsets[c]);
+    for (const std::int64_t count : all_gather(comm, std::span<const std::int64_t>(counts))) {
+        all.offsets.push_back(all.offsets.back() + count);
+    }
+    return all;
 }
 
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients) {

@@ -6,12 +6,16 @@
 
 #include "solvers/coefficients.hpp"
 #include "solvers/subspace_problem.hpp"
+#include "src/comm.hpp"
 
 namespace coseg {
 
 /// H features of `rows` rows and N columns drawn around `parts` prototypes, columns of unit 2-norm; the
 /// penalties are the struct's defaults, consecutive columns make meshes of `patches`.
 SubspaceProblem random_subspace_problem(int features, int rows, int columns, int patches, std::uint64_t seed);
+
+/// The coefficients of all columns on every rank. Collective.
+SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& mine);
 
 /// W_h of all columns, dense: `weights[h]` is N x N. Requires coefficients that own all columns.
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients);
