@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* iterate_format = "coseg solver iterate";
-constexpr int iterate_version = 2;
+constexpr int iterate_version = 3;
 
 std::string iterate_name(int generation, BlockRange columns) {
     char text[80];
@@ -80,8 +80,9 @@ bool is_complete(const std::vector<IterateFile>& files, std::int64_t size) {
 void write_iterate(const std::string& path, const SolveIterate& iterate, int features) {
     // One name for each field: a new one does not compile until it has been thought of here.
     const auto& [columns, offsets, rows, weights, prices, spectral, inner_gap, lower_bound, iterations,
-                 passes, newton, finished, objective, residual, reason] = iterate;
+                 passes, proximal, finished, objective, residual, reason] = iterate;
     const auto& [step, recent, count, inner_iterations] = spectral;
+    const auto& [next, reach, largest_reach, sufficient_gap] = proximal;
     Hdf5Writer file(path, iterate_format, iterate_version);
     file.attribute("source_fingerprint", source_fingerprint());
     file.attribute("features", std::int64_t{features});
@@ -94,9 +95,10 @@ void write_iterate(const std::string& path, const SolveIterate& iterate, int fea
     file.write("weights", weights, {rows.size(), static_cast<std::uint64_t>(features)});
     file.write("prices", prices);
     file.write("recent", std::vector<double>(recent.begin(), recent.end()));
-    file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual});
+    file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual, reach,
+                                              largest_reach, sufficient_gap});
     file.write("counts", std::vector<std::int64_t>{count, inner_iterations, iterations, passes,
-                                                   finished ? 1 : 0, reason, newton.wait, newton.next});
+                                                   finished ? 1 : 0, reason, next});
     file.commit();
 }
 
@@ -125,7 +127,7 @@ SolveIterate read_iterate(const std::string& path) {
     iterate.objective = numbers.at(3);
     iterate.residual = numbers.at(4);
     iterate.reason = static_cast<int>(counts.at(5));
-    iterate.newton = {static_cast<int>(counts.at(6)), static_cast<int>(counts.at(7))};
+    iterate.proximal = {static_cast<int>(counts.at(6)), numbers.at(5), numbers.at(6), numbers.at(7)};
     return iterate;
 }
 

@@ -31,7 +31,7 @@ SolveIterate made_iterate(std::int64_t begin, std::int64_t end) {
     iterate.lower_bound = 7.5;
     iterate.iterations = 40;
     iterate.passes = 3;
-    iterate.newton = {4, 35};
+    iterate.proximal = {35, 250.0, 1e5, 0.03};
     iterate.finished = true;
     iterate.objective = 8.5;
     iterate.residual = 1e-7;
@@ -53,8 +53,10 @@ void expect_equal(const SolveIterate& a, const SolveIterate& b) {
     EXPECT_EQ(a.lower_bound, b.lower_bound);
     EXPECT_EQ(a.iterations, b.iterations);
     EXPECT_EQ(a.passes, b.passes);
-    EXPECT_EQ(a.newton.wait, b.newton.wait);
-    EXPECT_EQ(a.newton.next, b.newton.next);
+    EXPECT_EQ(a.proximal.next, b.proximal.next);
+    EXPECT_EQ(a.proximal.reach, b.proximal.reach);
+    EXPECT_EQ(a.proximal.largest_reach, b.proximal.largest_reach);
+    EXPECT_EQ(a.proximal.sufficient_gap, b.proximal.sufficient_gap);
     EXPECT_EQ(a.finished, b.finished);
     EXPECT_EQ(a.objective, b.objective);
     EXPECT_EQ(a.residual, b.residual);
