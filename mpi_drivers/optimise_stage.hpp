@@ -25,7 +25,6 @@ struct Optimisation {
     double subset_agreement =
         1.0;  ///< mean share of the common meshes' area on which a subset agrees with the first
     std::int64_t allowed_pairs = 0;  ///< that the certificate covers
-    std::string warning;             ///< empty, or why the coefficients deserve a look
 };
 
 /// journal: see SolveOptions; log: is told of the progress, and may be null. The histograms of `features` are lent to the solver, so that they are in memory once, and are
