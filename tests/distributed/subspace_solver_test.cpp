@@ -10,19 +10,6 @@
 namespace coseg {
 namespace {
 
-/// The bits of two solves must agree.
-void expect_equal(const SolveResult& a, const SolveResult& b) {
-    EXPECT_EQ(a.objective, b.objective);
-    EXPECT_EQ(a.lower_bound, b.lower_bound);
-    EXPECT_EQ(a.relative_gap, b.relative_gap);
-    EXPECT_EQ(a.iterations, b.iterations);
-    EXPECT_EQ(a.nonzero_groups, b.nonzero_groups);
-    EXPECT_EQ(a.reason, b.reason);
-    EXPECT_EQ(a.coefficients.offsets, b.coefficients.offsets);
-    EXPECT_EQ(a.coefficients.rows, b.coefficients.rows);
-    EXPECT_EQ(a.coefficients.values, b.coefficients.values);
-}
-
 /// Solves on all ranks and on rank 0 alone: the bits must agree, and the certificate must hold. Returns what all ranks
 /// found, with the coefficients of all columns. (On every rank alone it would take as many times as long, for the same.)
 SolveResult expect_same_on_any_ranks(const SubspaceProblem& problem, const SolveOptions& options) {
@@ -33,7 +20,7 @@ SolveResult expect_same_on_any_ranks(const SubspaceProblem& problem, const Solve
     for (const double objective : all_gather(world, std::span<const double>(&shared.objective, 1)))
         EXPECT_EQ(objective, shared.objective);
     shared.coefficients = gathered(world, shared.coefficients);
-    if (world.is_root()) expect_equal(shared, solve_subspace(Comm(MPI_COMM_SELF), problem, options));
+    if (world.is_root()) expect_same_solution(shared, solve_subspace(Comm(MPI_COMM_SELF), problem, options));
     const double objective = subspace_objective(problem, dense_weights(shared.coefficients));
     EXPECT_NEAR(objective, shared.objective, 1e-12 * shared.objective_at_zero);
     EXPECT_LE(shared.lower_bound, shared.objective);

@@ -1,5 +1,7 @@
 #include "tests/support/subspace_problems.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -40,6 +42,19 @@ SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& mine) {
         all.offsets.push_back(all.offsets.back() + count);
     }
     return all;
+}
+
+void expect_same_solution(const SolveResult& a, const SolveResult& b) {
+    EXPECT_EQ(a.objective, b.objective);
+    EXPECT_EQ(a.lower_bound, b.lower_bound);
+    EXPECT_EQ(a.relative_gap, b.relative_gap);
+    EXPECT_EQ(a.iterations, b.iterations);
+    EXPECT_EQ(a.passes, b.passes);
+    EXPECT_EQ(a.reason, b.reason);
+    EXPECT_EQ(a.nonzero_groups, b.nonzero_groups);
+    EXPECT_EQ(a.coefficients.offsets, b.coefficients.offsets);
+    EXPECT_EQ(a.coefficients.rows, b.coefficients.rows);
+    EXPECT_EQ(a.coefficients.values, b.coefficients.values);
 }
 
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients) {

@@ -6,6 +6,7 @@
 
 #include "solvers/coefficients.hpp"
 #include "solvers/subspace_problem.hpp"
+#include "solvers/subspace_solver.hpp"
 #include "src/comm.hpp"
 
 namespace coseg {
@@ -16,6 +17,9 @@ SubspaceProblem random_subspace_problem(int features, int rows, int columns, int
 
 /// The coefficients of all columns on every rank. Collective.
 SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& mine);
+
+/// Bounds, counts and coefficients must agree to the bit.
+void expect_same_solution(const SolveResult& a, const SolveResult& b);
 
 /// W_h of all columns, dense: `weights[h]` is N x N. Requires coefficients that own all columns.
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients);

@@ -65,16 +65,15 @@ END
 
 parts=4
 cluster() { # NAME RANKS OPTION... : of NAME.h5
+    local command=("$COSEG" cluster --parts "$parts" --out "$work/k.txt" --coefficients "$work/w.h5" "${@:3}" "$work/$1.h5")
     rm -f "$work/k.txt" "$work/w.h5"
-    ranks "$2" "$COSEG" cluster --parts "$parts" --out "$work/k.txt" --coefficients "$work/w.h5" "${@:3}" "$work/$1.h5"
+    if (($2 == 1)); then "${command[@]}"; else ranks "$2" "${command[@]}"; fi
 }
-# bad NAME WORDS : refused in both scopes with a sentence that names the file, and nothing is written.
+# bad NAME WORDS : refused with a sentence that names the file, and nothing is written.
 bad() {
-    for scope in paper mesh; do
-        refuses "$1, scope $scope" 3 "$2" cluster "$1" 2 --scope $scope
-        grep -q -F "$1.h5" "$work/err" || fail "$1: the file is not named"
-        [[ ! -e $work/k.txt && ! -e $work/w.h5 ]] || fail "$1: a refused file left results"
-    done
+    refuses "$1" 3 "$2" cluster "$1" 1
+    grep -q -F "$1.h5" "$work/err" || fail "$1: the file is not named"
+    [[ ! -e $work/k.txt && ! -e $work/w.h5 ]] || fail "$1: a refused file left results"
 }
 bad nan "feature 2, column 8 holds a value that is not a finite number"
 bad infinite "feature 2, column 8 holds a value that is not a finite number"
@@ -85,21 +84,22 @@ bad huge "feature 2, column 8 is too large to square"
 bad ragged "feature 2 has 37 columns but feature 1 has 40"
 bad flat "has 1 axes, not 2"
 bad complex "does not hold numbers"
-refuses "no items" 3 "no columns" cluster no_items 2
+bad no_items "no columns"
 bad no_rows "feature 1, column 1 is all zeros"
 bad area "'patch_area' holds a value"
 bad far "'mesh_of' holds the number 2000000000"
 bad fractions "'mesh_of' holds floating-point numbers"
 bad concavity "'neighbors/concavity' holds a value"
 bad length "'neighbors', pair 0"
-refuses "a bad file on 4 ranks" 3 "feature 2, column 8" cluster nan 4
+for scope in paper mesh; do refuses "a bad file on 4 ranks, scope $scope" 3 "feature 2, column 8" cluster nan 4 --scope $scope; done
+refuses "a bad dataset on 2 ranks" 3 "'neighbors', pair 0" cluster length 2
 refuses "one group cannot be linked" 3 "at least two groups" cluster one_group 2 --scope mesh
 refuses "more parts than items" 2 "4 parts are asked for" cluster one_item 2
 [[ ! -e $work/w.h5 ]] || fail "solved although there are more parts than items"
 
-# fine NAME OPTION... : clustered; the bounds are in order, the gap is reached, each item has its part.
+# fine NAME RANKS OPTION... : clustered; the bounds are in order, the gap is reached, each item has its part.
 fine() {
-    cluster "$1" 2 "${@:2}" >"$work/answer.json" 2>"$work/err" || { cat "$work/err" >&2; fail "$*"; }
+    cluster "$@" >"$work/answer.json" 2>"$work/err" || { cat "$work/err" >&2; fail "$*"; }
     "$python" - "$work/answer.json" "$work/k.txt" <<'END' || fail "$*: certificate or parts"
 import json, sys
 answer, parts = json.load(open(sys.argv[1])), [int(line) for line in open(sys.argv[2])]
@@ -109,17 +109,17 @@ END
     echo "ok: $*"
 }
 parts=1
-fine one_item
+fine one_item 2
 parts=4
-fine one_group
+fine one_group 2
 for scope in paper mesh; do
-    fine one_feature --scope $scope
-    fine integers --scope $scope --unit-columns
-    fine duplicates --scope $scope
-    fine all_alike --scope $scope
-    fine good --scope $scope --alpha 0 --beta 0 --lambda 0
+    fine one_feature 2 --scope $scope
+    fine integers 2 --scope $scope --unit-columns
+    fine duplicates 2 --scope $scope
+    fine all_alike 2 --scope $scope
+    fine good 2 --scope $scope --alpha 0 --beta 0 --lambda 0
     parts=1
-    fine good --scope $scope --beta 1e6 # W = 0, and nothing to cut
+    fine good 2 --scope $scope --beta 1e6 # W = 0, and nothing to cut
     parts=4
     refuses "optimum W = 0, scope $scope" 3 "the optimum is W = 0 (certified)" cluster good 2 --scope $scope --beta 1e6
     for limit in "--max-iterations 2" "--max-seconds 0"; do
@@ -129,10 +129,10 @@ for scope in paper mesh; do
     done
 done
 for variant in single-feature independent concatenated ssc ssc-signed ssqp; do
-    fine one_feature --variant $variant
-    fine duplicates --variant $variant --alpha 0 --beta 0 --lambda 0 --unit-columns
+    fine one_feature 1 --variant $variant
+    fine duplicates 1 --variant $variant --alpha 0 --beta 0 --lambda 0 --unit-columns
 done
 for variant in single-feature independent concatenated ssc ssc-signed; do
-    refuses "optimum W = 0, $variant" 3 "the optimum is W = 0 (certified)" cluster good 2 --variant $variant --beta 1e6
+    refuses "optimum W = 0, $variant" 3 "the optimum is W = 0 (certified)" cluster good 1 --variant $variant --beta 1e6
 done
 echo "ok: cluster input"
