@@ -26,7 +26,6 @@ ProximalNewton::ProximalNewton(const Comm& comm, const SubspaceProblem& problem,
                                const std::vector<ColumnFit>& fits, const std::vector<std::size_t>& offset,
                                const std::vector<double>& linear, RowExchange& exchange)
     : comm_(comm),
-      problem_(problem),
       stack_(stack),
       fits_(fits),
       offset_(offset),

@@ -63,7 +63,6 @@ class ProximalNewton {
                               std::vector<double>& prices);
 
     const Comm& comm_;
-    const SubspaceProblem& problem_;
     const FeatureStack& stack_;
     const std::vector<ColumnFit>& fits_;
     const std::vector<std::size_t>& offset_;
