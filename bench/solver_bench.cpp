@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bench/mpi_program.hpp"
 #include "solvers/blas.hpp"
 #include "solvers/co_segmentation_cut.hpp"
 #include "solvers/mesh_links.hpp"
@@ -329,7 +330,7 @@ void run(const Settings& settings) {
     if (comm.is_root()) std::cout << report.dump(2) << std::endl;
 }
 
-int parse_and_run(int argc, char** argv) {
+int program(int argc, char** argv) {
     Settings settings;
     CLI::App app("Cost of the subspace solvers");
     app.add_option("--sizes", settings.sizes, "Numbers of patches")->delimiter(',')->capture_default_str();
@@ -345,25 +346,9 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--gap", settings.gap, "Relative gap")->capture_default_str();
     app.add_flag("--strong", settings.strong,
                  "Solve on one rank first, and print how much longer that takes");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error);
-    }
-    run(settings);
-    return 0;
+    return coseg::parse_and_run(app, argc, argv, [&] { run(settings); });
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
-    int status = 1;
-    try {
-        status = parse_and_run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-    }
-    MPI_Finalize();
-    return status;
-}
+int main(int argc, char** argv) { return coseg::run_with_mpi(argc, argv, program); }

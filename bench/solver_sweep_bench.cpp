@@ -11,10 +11,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "bench/mpi_program.hpp"
 #include "solvers/pass_clock.hpp"
 #include "solvers/subspace_solver.hpp"
 #include "src/seeded_random.hpp"
@@ -144,7 +144,7 @@ void run(const Settings& settings) {
     if (comm.is_root()) std::cout << line.dump() << std::endl;
 }
 
-int parse_and_run(int argc, char** argv) {
+int program(int argc, char** argv) {
     Settings settings;
     CLI::App app("Gaps of the subspace solvers over the range of the penalties");
     app.add_option("--kinds", settings.kinds, "random, histogram, counts")->delimiter(',');
@@ -157,25 +157,9 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--rows", settings.rows, "Rows of a feature")->capture_default_str();
     app.add_option("--seconds", settings.seconds, "Limit of a case")->capture_default_str();
     app.add_option("--solver", settings.solver, "auto, dense or working-set")->capture_default_str();
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error);
-    }
-    run(settings);
-    return 0;
+    return coseg::parse_and_run(app, argc, argv, [&] { run(settings); });
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
-    int status = 1;
-    try {
-        status = parse_and_run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-    }
-    MPI_Finalize();
-    return status;
-}
+int main(int argc, char** argv) { return coseg::run_with_mpi(argc, argv, program); }

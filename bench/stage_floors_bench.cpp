@@ -27,6 +27,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bench/mpi_program.hpp"
 #include "io/mesh_reader.hpp"
 #include "solvers/blas.hpp"
 #include "solvers/face_agglomeration.hpp"
@@ -289,25 +290,14 @@ void measure(const coseg::Comm& comm, const std::vector<std::string>& paths) {
     std::cout << result.dump(1) << "\n";
 }
 
+int program(int argc, char** argv) {
+    coseg::use_one_blas_thread();
+    CLI::App app("The stages before the optimiser beside their floors");
+    std::vector<std::string> paths;
+    app.add_option("meshes", paths, "Meshes")->required();
+    return coseg::parse_and_run(app, argc, argv, [&] { measure(coseg::Comm(MPI_COMM_SELF), paths); });
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
-    int code = 0;
-    try {
-        coseg::use_one_blas_thread();
-        CLI::App app("The stages before the optimiser beside their floors");
-        std::vector<std::string> paths;
-        app.add_option("meshes", paths, "Meshes")->required();
-        app.parse(argc, argv);
-        measure(coseg::Comm(MPI_COMM_SELF), paths);
-    } catch (const CLI::ParseError& error) {
-        std::cerr << error.what() << "\n";
-        code = 2;
-    } catch (const std::exception& error) {
-        std::cerr << "stage_floors_bench: " << error.what() << "\n";
-        code = 1;
-    }
-    MPI_Finalize();
-    return code;
-}
+int main(int argc, char** argv) { return coseg::run_with_mpi(argc, argv, program); }

@@ -1,6 +1,7 @@
 #include "io/feature_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/hdf5_file.hpp"
 #include "src/error.hpp"
@@ -21,6 +22,8 @@ void refuse_length(const std::string& path, const std::string& name, std::size_t
                      std::to_string(items) + " items (rows of the features)");
 }
 
+bool is_size(double value) { return std::isfinite(value) && value >= 0.0; }
+
 ItemPairs read_pairs(const Hdf5Reader& reader, const std::string& group, const std::string& weight,
                      std::size_t items) {
     ItemPairs pairs;
@@ -33,9 +36,9 @@ ItemPairs read_pairs(const Hdf5Reader& reader, const std::string& group, const s
     for (std::size_t k = 0; k < pairs.first.size(); ++k) {
         const bool inside = pairs.first[k] >= 0 && pairs.first[k] < pairs.second[k] &&
                             static_cast<std::size_t>(pairs.second[k]) < items;
-        if (!inside || !(pairs.weight[k] >= 0.0)) {
+        if (!inside || !is_size(pairs.weight[k])) {
             refuse(reader.path(), "'" + group + "', pair " + std::to_string(k) +
-                                      ": needs 0 <= first < second < number of items and a " + weight +
+                                      ": needs 0 <= first < second < number of items and a finite " + weight +
                                       " of at least 0");
         }
     }
@@ -48,6 +51,13 @@ void read_groups(const Hdf5Reader& reader, std::size_t items, FeatureFile& file)
         refuse_length(reader.path(), "mesh_of", file.mesh_of.size(), items);
         if (std::ranges::any_of(file.mesh_of, [](int mesh) { return mesh < 0; }))
             refuse(reader.path(), "'mesh_of' holds a negative number; meshes count from 0");
+        // What follows is as large as the largest number.
+        const int largest = file.mesh_of.empty() ? 0 : *std::ranges::max_element(file.mesh_of);
+        if (items > 0 && static_cast<std::size_t>(largest) >= items) {
+            refuse(reader.path(), "'mesh_of' holds the number " + std::to_string(largest) +
+                                      ", but there are " + std::to_string(items) +
+                                      " items only; number the meshes from 0 without gaps");
+        }
     }
     if (reader.has("mesh_names")) {
         file.mesh_names = reader.read_texts("mesh_names");
@@ -59,7 +69,20 @@ void read_groups(const Hdf5Reader& reader, std::size_t items, FeatureFile& file)
     if (reader.has("patch_area")) {
         file.patch_area = reader.read<double>("patch_area");
         refuse_length(reader.path(), "patch_area", file.patch_area.size(), items);
+        if (!std::ranges::all_of(file.patch_area, is_size))
+            refuse(reader.path(), "'patch_area' holds a value that is not a finite number of at least 0");
     }
+}
+
+/// A mean of values in [0, 1] may leave it by rounding.
+void read_concavity(const Hdf5Reader& reader, FeatureFile& file) {
+    constexpr double rounding = 1e-9;
+    file.concavity = reader.read<double>("neighbors/concavity");
+    if (file.concavity.size() != file.neighbors.first.size())
+        refuse(reader.path(), "the datasets of 'neighbors' are of different lengths");
+    const auto in_range = [](double value) { return value >= -rounding && value <= 1.0 + rounding; };
+    if (!std::ranges::all_of(file.concavity, in_range))
+        refuse(reader.path(), "'neighbors/concavity' holds a value that is not in [0, 1]");
 }
 
 void write_pairs(Hdf5Writer& writer, const std::string& group, const std::string& weight,
@@ -82,11 +105,7 @@ FeatureFile read_feature_file(const std::string& path) {
     const auto items = static_cast<std::size_t>(file.features.front().cols());
     read_groups(reader, items, file);
     file.neighbors = read_pairs(reader, "neighbors", "boundary_length", items);
-    if (!file.neighbors.first.empty()) {
-        file.concavity = reader.read<double>("neighbors/concavity");
-        if (file.concavity.size() != file.neighbors.first.size())
-            refuse(path, "the datasets of 'neighbors' are of different lengths");
-    }
+    if (!file.neighbors.first.empty()) read_concavity(reader, file);
     file.overlaps = read_pairs(reader, "overlaps", "intersection_over_union", items);
     return file;
 }

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <numeric>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "io/atomic_file.hpp"
@@ -373,6 +374,8 @@ std::vector<T> Hdf5Reader::read(const std::string& name) const {
     const H5T_class_t kind = H5Tget_class(type.id());
     if (kind != H5T_INTEGER && kind != H5T_FLOAT)
         refuse(path_, "the dataset '" + name + "' does not hold numbers");
+    if (std::is_integral_v<T> && kind == H5T_FLOAT)
+        refuse(path_, "the dataset '" + name + "' holds floating-point numbers, not integers");
     std::vector<T> values(product(shape(name)));
     if (H5Dread(set.id(), kind_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
         refuse(path_, "the dataset '" + name + "' cannot be read");

@@ -12,6 +12,7 @@
 #include "mpi_drivers/report_stage.hpp"
 #include "mpi_drivers/run_option_table.hpp"
 #include "mpi_drivers/run_state.hpp"
+#include "mpi_drivers/solution_output.hpp"
 #include "solvers/petsc_session.hpp"
 #include "src/error.hpp"
 
@@ -126,6 +127,7 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
         log.end(options.out + "/report.html");
     }
     folder.commit(world);
+    refuse_unreached_gap(assigned.optimisation.result, options.gap, options.out);
 }
 
 }  // namespace

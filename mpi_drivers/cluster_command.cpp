@@ -1,6 +1,8 @@
 // coseg cluster: solver, affinity and cut on a user's own feature matrices.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -56,6 +58,7 @@ FeatureFile read_and_broadcast(const Comm& comm, const std::string& path, Featur
     broadcast(comm, file.mesh_of);
     broadcast(comm, file.patch_area);
     broadcast_texts(comm, file.mesh_names);
+    broadcast_texts(comm, file.names);
     return file;
 }
 
@@ -67,9 +70,14 @@ SubspaceProblem make_problem(const FeatureFile& file, FeatureMatrices features,
     problem.alpha = settings.alpha;
     problem.beta = settings.beta;
     problem.lambda = settings.lambda;
-    const bool mesh_scope = settings.scope == "mesh" || (settings.scope == "auto" && !file.mesh_of.empty());
-    if (settings.scope == "mesh" && file.mesh_of.empty()) {
-        throw AgreedError(ExitCode::input, settings.path + ": --scope mesh needs the dataset 'mesh_of'");
+    const bool grouped = !file.mesh_of.empty() &&
+                         std::ranges::adjacent_find(file.mesh_of, std::not_equal_to()) != file.mesh_of.end();
+    // One group has no other to link to: its items are then compared among themselves.
+    const bool mesh_scope = settings.scope == "mesh" || (settings.scope == "auto" && grouped);
+    if (settings.scope == "mesh" && !grouped) {
+        throw AgreedError(ExitCode::input, settings.path +
+                                               ": --scope mesh needs the dataset 'mesh_of' with at least two "
+                                               "groups; items of one group are not linked to each other");
     }
     if (!mesh_scope || !keeps_scope(variant_of(settings.variant))) return problem;
     problem.scope = PenaltyScope::mesh;
@@ -79,6 +87,24 @@ SubspaceProblem make_problem(const FeatureFile& file, FeatureMatrices features,
     for (int m = 0; names.size() < static_cast<std::size_t>(meshes); ++m) names.push_back(std::to_string(m));
     if (settings.links > 0) problem.allowed_meshes = mesh_links(names, settings.links, settings.seed);
     return problem;
+}
+
+/// What cannot be clustered, in the terms of the file.
+void validate(const SubspaceProblem& problem, const FeatureFile& file, const ClusterSettings& settings) {
+    try {
+        validate(problem);
+    } catch (const Error& error) {
+        std::string names;
+        for (const std::string& name : file.names) names += (names.empty() ? "" : ", ") + name;
+        throw Error(error.code(), settings.path + ": " + error.what() +
+                                      " (features are the datasets of 'features' in the order " + names +
+                                      ", columns their rows, both counted from 1)");
+    }
+    if (settings.parts > problem.size()) {
+        throw Error(ExitCode::usage, std::to_string(settings.parts) + " parts are asked for, but " +
+                                         settings.path + " holds " + std::to_string(problem.size()) +
+                                         (problem.size() == 1 ? " item" : " items"));
+    }
 }
 
 /// Collective.
@@ -139,7 +165,7 @@ void cluster_file(const Invocation& invocation, const ClusterSettings& settings)
     FeatureMatrices features;
     const FeatureFile file = read_and_broadcast(comm, settings.path, features);
     SubspaceProblem problem = make_problem(file, std::move(features), settings);
-    agree(comm, [&] { validate(problem); });
+    agree(comm, [&] { validate(problem, file, settings); });
     if (settings.unit_columns) scale_columns(problem.features);
     const SolveResult solution =
         solve_variant(comm, problem, variant_of(settings.variant), 0, settings.options);

@@ -201,7 +201,6 @@ Partitioned partition_stage(const Comm& comm, const Collection& collection, Patc
     const bool whole = options.subsets == 0 || static_cast<int>(collection.meshes.size()) <= options.subsets;
     Partitioned done = whole ? partition_whole(comm, collection, features, options, journals, log)
                              : partition_in_subsets(comm, collection, features, options, journals, log);
-    if (!done.optimisation.warning.empty()) log.warn(done.optimisation.warning);
     if (options.segments) {
         log.begin("segments");
         done.cut = partition_segments(comm, collection, features, done.cut, options, tiles_of(journals),
@@ -309,6 +308,7 @@ void co_segment(const Comm& comm, const RunOptions& options,
                      log);
     if (options.profile) write_profile(comm, folder.staging(), options, log);
     folder.commit(comm);
+    refuse_unreached_gap(optimisation.result, options.gap, options.out);
 }
 
 }  // namespace coseg

@@ -10,7 +10,8 @@
 
 namespace coseg {
 
-/// Runs all stages and writes the folder options.out. Collective; throws AgreedError.
+/// Runs all stages and writes the folder options.out. Collective; throws AgreedError: not_converged also after all is written,
+/// where a limit ended the optimiser before its gap.
 /// resolved: the options as the report lists them. petsc_arguments: what follows `--`.
 void co_segment(const Comm& comm, const RunOptions& options,
                 const std::vector<std::pair<std::string, std::string>>& resolved,

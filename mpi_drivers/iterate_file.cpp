@@ -80,8 +80,9 @@ bool is_complete(const std::vector<IterateFile>& files, std::int64_t size) {
 void write_iterate(const std::string& path, const SolveIterate& iterate, int features) {
     // One name for each field: a new one does not compile until it has been thought of here.
     const auto& [columns, offsets, rows, weights, prices, spectral, inner_gap, lower_bound, iterations,
-                 passes, newton, history, finished, objective, residual, reason] = iterate;
+                 passes, proximal, history, finished, objective, residual, reason] = iterate;
     const auto& [step, recent, count, inner_iterations] = spectral;
+    const auto& [next, reach, largest_reach, sufficient_gap] = proximal;
     Hdf5Writer file(path, iterate_format, iterate_version);
     file.attribute("source_fingerprint", source_fingerprint());
     file.attribute("features", std::int64_t{features});
@@ -94,9 +95,10 @@ void write_iterate(const std::string& path, const SolveIterate& iterate, int fea
     file.write("weights", weights, {rows.size(), static_cast<std::uint64_t>(features)});
     file.write("prices", prices);
     file.write("recent", std::vector<double>(recent.begin(), recent.end()));
-    file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual});
+    file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual, reach,
+                                              largest_reach, sufficient_gap});
     file.write("counts", std::vector<std::int64_t>{count, inner_iterations, iterations, passes,
-                                                   finished ? 1 : 0, reason, newton.wait, newton.next});
+                                                   finished ? 1 : 0, reason, next});
     std::vector<std::int64_t> steps;
     std::vector<double> bounds;
     for (const auto& [pass, so_far, reached, bound, gap, pairs] : history) {
@@ -133,7 +135,7 @@ SolveIterate read_iterate(const std::string& path) {
     iterate.objective = numbers.at(3);
     iterate.residual = numbers.at(4);
     iterate.reason = static_cast<int>(counts.at(5));
-    iterate.newton = {static_cast<int>(counts.at(6)), static_cast<int>(counts.at(7))};
+    iterate.proximal = {static_cast<int>(counts.at(6)), numbers.at(5), numbers.at(6), numbers.at(7)};
     const auto steps = file.read<std::int64_t>("history/counts");
     const auto bounds = file.read<double>("history/numbers");
     for (std::size_t k = 0; k + 2 < steps.size(); k += 3) {

@@ -59,14 +59,6 @@ std::vector<std::string> feature_labels(const PatchFeatures& features, const Run
     return labels;
 }
 
-std::string limit_warning(const SolveResult& result) {
-    if (result.reason != StopReason::iteration_limit && result.reason != StopReason::time_limit) return "";
-    return "the optimiser stopped at its " +
-           std::string(result.reason == StopReason::time_limit ? "time" : "iteration") +
-           " limit with a relative gap of " + significant(result.relative_gap) +
-           "; raise --max-iterations or --max-seconds";
-}
-
 /// The problem that the options ask for, with the meshes' names as the seed of their links; without its features.
 SubspaceProblem subspace_problem(const Collection& collection, const RunOptions& options) {
     SubspaceProblem problem;
@@ -116,7 +108,6 @@ Optimisation optimise(const Comm& comm, const Collection& collection, const Patc
                              .journal = journal};
     done.result = solve_variant(comm, problem, variant_of(options.variant), feature, solve);
     done.features = feature_labels(features, options);
-    done.warning = limit_warning(done.result);
     return done;
 }
 

@@ -25,7 +25,6 @@ struct Optimisation {
     double subset_agreement =
         1.0;  ///< mean share of the common meshes' area on which a subset agrees with the first
     std::int64_t allowed_pairs = 0;  ///< that the certificate covers
-    std::string warning;             ///< empty, or why the coefficients deserve a look
 };
 
 /// journal: see SolveOptions; log: is told of the progress, and may be null. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what

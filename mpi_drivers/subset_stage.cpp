@@ -75,10 +75,9 @@ void add(Optimisation& sum, Optimisation&& one, bool first) {
     s.kkt_residual = std::max(s.kkt_residual, o.kkt_residual);
     s.history = joined({s.history, o.history});
     s.iterations = std::max(s.iterations, o.iterations);
-    if (s.reason == StopReason::gap_reached) s.reason = o.reason;
+    s.reason = std::max(s.reason, o.reason);
     sum.links = std::max(sum.links, one.links);
     sum.allowed_pairs += one.allowed_pairs;
-    if (sum.warning.empty()) sum.warning = one.warning;
 }
 
 struct Matching {

@@ -1,7 +1,6 @@
 #include "solvers/cluster_merging.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -20,47 +19,20 @@ double loss_of_union(const ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
     return association(c.links(a, a), c.volume(a)) + association(c.links(b, b), c.volume(b)) - together;
 }
 
-/// Links between a and b relative to their volumes.
-double closeness(const ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
-    const double scale = std::sqrt(c.volume(a) * c.volume(b));
-    return scale > 0.0 ? c.links(a, b) / scale : 0.0;
+void unite(ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
+    c.links.row(a) += c.links.row(b).eval();
+    c.links.col(a) += c.links.col(b).eval();
+    c.volume(a) += c.volume(b);
 }
 
-/// Clusters on their way to parts.
-struct Merger {
-    ClusterLinks links;
-    Eigen::MatrixXd shares;
-    MergeRule rule;
-
-    /// The smaller, the sooner a and b are united.
-    [[nodiscard]] double cost(Eigen::Index a, Eigen::Index b) const {
-        switch (rule) {
-            case MergeRule::normalized_cut:
-                return loss_of_union(links, a, b);
-            case MergeRule::affinity:
-                return -closeness(links, a, b);
-            case MergeRule::alternation:
-                return -closeness(links, a, b) * (1.0 - 0.5 * companionship(shares, a, b));
-        }
-        return 0.0;
-    }
-
-    void unite(Eigen::Index a, Eigen::Index b) {
-        links.links.row(a) += links.links.row(b).eval();
-        links.links.col(a) += links.links.col(b).eval();
-        links.volume(a) += links.volume(b);
-        shares.row(a) += shares.row(b).eval();
-    }
-};
-
-std::pair<int, int> best_union(const Merger& merger, const std::vector<int>& alive) {
+std::pair<int, int> best_union(const ClusterLinks& links, const std::vector<int>& alive) {
     std::pair<int, int> best{alive[0], alive[1]};
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < alive.size(); ++i) {
         for (std::size_t j = i + 1; j < alive.size(); ++j) {
-            const double cost = merger.cost(alive[i], alive[j]);
-            if (cost < least) {
-                least = cost;
+            const double loss = loss_of_union(links, alive[i], alive[j]);
+            if (loss < least) {
+                least = loss;
                 best = {alive[i], alive[j]};
             }
         }
@@ -115,22 +87,7 @@ Eigen::MatrixXd area_shares(const std::vector<int>& labels, int clusters,
     return shares;
 }
 
-double companionship(const Eigen::MatrixXd& shares, Eigen::Index a, Eigen::Index b) {
-    double common = 0.0;
-    double sum_a = 0.0;
-    double sum_b = 0.0;
-    for (Eigen::Index m = 0; m < shares.cols(); ++m) {
-        common += std::min(shares(a, m), shares(b, m));
-        sum_a += shares(a, m);
-        sum_b += shares(b, m);
-    }
-    const double smaller = std::min(sum_a, sum_b);
-    return smaller > 0.0 ? common / smaller : 0.0;
-}
-
-std::vector<int> merge_clusters(const ClusterLinks& links, const Eigen::MatrixXd& shares,
-                                const std::vector<int>& cluster_sizes, int parts, MergeRule rule) {
-    Merger merger{links, shares, rule};
+std::vector<int> merge_clusters(ClusterLinks links, const std::vector<int>& cluster_sizes, int parts) {
     std::vector<int> root(cluster_sizes.size(), -1);
     std::vector<int> alive;
     for (std::size_t c = 0; c < cluster_sizes.size(); ++c) {
@@ -139,8 +96,8 @@ std::vector<int> merge_clusters(const ClusterLinks& links, const Eigen::MatrixXd
         alive.push_back(static_cast<int>(c));
     }
     while (static_cast<int>(alive.size()) > parts) {
-        const auto [a, b] = best_union(merger, alive);
-        merger.unite(a, b);
+        const auto [a, b] = best_union(links, alive);
+        unite(links, a, b);
         std::replace(root.begin(), root.end(), b, a);
         std::erase(alive, b);
     }

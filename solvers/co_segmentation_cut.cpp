@@ -147,9 +147,8 @@ std::vector<int> merged_clusters(const GraphCut& cut, const CutStart& start, con
                                  int clusters) {
     const bool same_graph = start.merging == start.cut;
     const SparseRows other = same_graph ? SparseRows{} : graph_of(cut.terms, start.merging, 0.0);
-    const ClusterLinks links = cluster_links(cut.group, same_graph ? cut.graph : other, labels, clusters);
-    const Eigen::MatrixXd shares = area_shares(labels, clusters, cut.input.patch_area, cut.input.mesh_of);
-    return merge_clusters(links, shares, cluster_sizes(labels, clusters), cut.options.parts, start.rule);
+    return merge_clusters(cluster_links(cut.group, same_graph ? cut.graph : other, labels, clusters),
+                          cluster_sizes(labels, clusters), cut.options.parts);
 }
 
 LabelledOutcome run_start(const GraphCut& cut, int index) {
@@ -342,7 +341,7 @@ std::vector<CutStart> pooled_starts(int parts) {
     std::vector<CutStart> starts;
     for (const double weight : {1.0, 2.0, 4.0, 8.0}) {
         const GraphWeights graph{weight, weight};
-        for (const int count : clusters) starts.push_back({graph, count, graph, MergeRule::normalized_cut});
+        for (const int count : clusters) starts.push_back({graph, count, graph});
     }
     return starts;
 }
@@ -352,14 +351,14 @@ std::vector<CutStart> articulated_starts(int parts) {
     std::vector<CutStart> starts;
     for (const int count : cluster_counts(parts)) {
         if (count == parts) continue;
-        starts.push_back({without_adjacency, count, without_adjacency, MergeRule::normalized_cut});
+        starts.push_back({without_adjacency, count, without_adjacency});
     }
     return starts;
 }
 
 std::vector<CutStart> single_start(int parts, double adjacency) {
     const GraphWeights graph{adjacency, adjacency};
-    return {{graph, parts, graph, MergeRule::normalized_cut}};
+    return {{graph, parts, graph}};
 }
 
 CutResult described_partition(const std::vector<int>& labels, int parts, const std::vector<int>& mesh_of,

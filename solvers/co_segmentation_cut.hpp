@@ -28,13 +28,12 @@ struct GraphWeights {
     friend bool operator==(const GraphWeights&, const GraphWeights&) = default;
 };
 
-/// One attempt: the graph `cut` is cut into `clusters`, these are merged into the parts by `rule` in the
-/// graph `merging`.
+/// One attempt: the graph `cut` is cut into `clusters`, these are merged into the parts by the normalised cut of
+/// the graph `merging`.
 struct CutStart {
     GraphWeights cut;
     int clusters = 2;
     GraphWeights merging;
-    MergeRule rule = MergeRule::normalized_cut;
 };
 
 /// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 5K/2, 3K}, merged by the normalised cut of

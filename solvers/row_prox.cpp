@@ -130,4 +130,19 @@ void RowProx::shrink(std::span<double> v, double step, std::span<double> price) 
     apply(v, step, price);
 }
 
+double RowProx::penalty(std::span<const double> w, std::span<double> sums) const {
+    std::fill(sums.begin(), sums.end(), 0.0);
+    double result = 0.0;
+    for (std::size_t at = 0; at < w.size(); at += features_) {
+        double squares = 0.0;
+        for (std::size_t h = 0; h < features_; ++h) {
+            sums[h] += w[at + h];
+            squares += w[at + h] * w[at + h];
+        }
+        result += alpha_ * std::sqrt(squares);
+    }
+    for (const double sum : sums) result += lambda_ * sum * sum + beta_ * sum;
+    return result;
+}
+
 }  // namespace coseg

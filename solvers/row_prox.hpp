@@ -19,6 +19,9 @@ class RowProx {
     /// p. Serial; the bits depend on the arguments alone.
     void shrink(std::span<double> v, double step, std::span<double> price);
 
+    /// The penalties of one row w, pairs as in shrink(); `sums` become sum_j w_j, H values.
+    double penalty(std::span<const double> w, std::span<double> sums) const;
+
   private:
     void evaluate(std::span<const double> v, double step, std::span<const double> price);
     void add_pair(const double* v, double step, std::span<const double> price);

@@ -32,10 +32,12 @@ struct SolvedTile {
     std::vector<ColumnRound> rounds;  ///< of all columns together; reached: decrease
 };
 
-/// When the solve on the working set next tries a Newton step.
-struct NewtonTurns {
-    int wait = 1;  ///< in checks of the stopping rule
+/// The proximal points that the solve on the working set still takes.
+struct ProximalTurns {
     int next = 0;  ///< iteration of this solve
+    double reach = 0.0;
+    double largest_reach = 0.0;
+    double sufficient_gap = 0.0;  ///< of the working set's problem, once proximal points are needed
 };
 
 /// Where scope paper stands: in the middle of a solve on its working set, or at its end. A function of the problem and
@@ -52,7 +54,7 @@ struct SolveIterate {
     double lower_bound = 0.0;  ///< the best so far
     int iterations = 0;        ///< before this solve; at the end: in all
     int passes = 0;
-    NewtonTurns newton;
+    ProximalTurns proximal;
     SolveHistory history;
     // At the end:
     bool finished = false;

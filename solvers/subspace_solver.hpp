@@ -22,6 +22,7 @@ struct SolveOptions {
     SolveJournal* journal = nullptr;  ///< keeps finished tiles or the iterate; none by default
 };
 
+/// From best to worst.
 enum class StopReason { gap_reached, residual_reached, iteration_limit, time_limit };
 
 /// What this rank's looks at all pairs have cost.

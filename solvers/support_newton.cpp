@@ -32,18 +32,18 @@ SupportNewton::SupportNewton(const Comm& comm, const SubspaceProblem& problem, c
     inverse_norm_.resize(offset.back() / static_cast<std::size_t>(stack.features));
 }
 
-/// row_part_: by columns, 2 lambda times the sum of each pair's row.
-void SupportNewton::price_of_rows(const std::vector<double>& row_sums) {
+/// row_part_: by columns, 2 lambda times the sum of the vector over each pair's row.
+void SupportNewton::sum_along_rows(const std::vector<double>& vector) {
     const auto features = static_cast<std::size_t>(stack_.features);
-    const std::int64_t rows = exchange_.owned_rows().size();
-    by_row_.resize(exchange_.row_begin(rows) * features);
-    for (std::int64_t r = 0; r < rows; ++r) {
-        for (std::size_t p = exchange_.row_begin(r); p < exchange_.row_begin(r + 1); ++p) {
-            for (std::size_t h = 0; h < features; ++h) {
-                by_row_[p * features + h] =
-                    2.0 * problem_.lambda * row_sums[static_cast<std::size_t>(r) * features + h];
-            }
-        }
+    exchange_.to_rows(vector, by_row_);
+    std::vector<double> sums(features);
+    for (std::int64_t r = 0; r < exchange_.owned_rows().size(); ++r) {
+        const std::size_t begin = exchange_.row_begin(r) * features;
+        const std::size_t end = exchange_.row_begin(r + 1) * features;
+        std::fill(sums.begin(), sums.end(), 0.0);
+        for (std::size_t at = begin; at < end; ++at) sums[(at - begin) % features] += by_row_[at];
+        for (std::size_t at = begin; at < end; ++at)
+            by_row_[at] = 2.0 * problem_.lambda * sums[(at - begin) % features];
     }
     exchange_.to_columns(by_row_, row_part_);
 }
@@ -58,54 +58,91 @@ void SupportNewton::measure_groups(const std::vector<double>& weights) {
     }
 }
 
-void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weights) {
+void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weights, double added) {
     const auto features = static_cast<std::size_t>(stack_.features);
     for (std::size_t h = 0; h < features; ++h) {
         Block& block = blocks_[c * features + h];
         block.places.clear();
-        block.factored = false;
+        block.hessian.resize(0, 0);
         for (std::size_t at = offset_[c] + h; at < offset_[c + 1]; at += features) {
             if (weights[at] > 0.0) block.places.push_back(at);
         }
         const auto count = static_cast<Eigen::Index>(block.places.size());
-        Eigen::MatrixXd columns(stack_.rows_of(static_cast<int>(h)), count);
         Eigen::VectorXd curvature(count);
         for (Eigen::Index k = 0; k < count; ++k) {
             const std::size_t at = block.places[static_cast<std::size_t>(k)];
-            const int row = fits_[c].rows[(at - offset_[c]) / features];
-            std::copy_n(
-                stack_.feature(static_cast<int>(h)) + static_cast<std::int64_t>(row) * stack_.dimension,
-                columns.rows(), columns.col(k).data());
             const double along = weights[at] * inverse_norm_[at / features];
-            curvature[k] = 2.0 * problem_.lambda +
+            curvature[k] = 2.0 * problem_.lambda + added +
                            problem_.alpha * inverse_norm_[at / features] * std::max(1.0 - along * along, 0.0);
         }
-        const Eigen::VectorXd diagonal =
-            (2.0 + regularization) * columns.colwise().squaredNorm().transpose() + curvature;
+        Eigen::MatrixXd hessian = 2.0 * gram_of(c, h, block.places);
+        const Eigen::VectorXd diagonal = (1.0 + regularization) * hessian.diagonal() + curvature;
         block.inverse_diagonal = diagonal.cwiseInverse();
         if (block.places.empty() || block.places.size() > largest_block) continue;
-        Eigen::MatrixXd matrix = 2.0 * columns.transpose() * columns;
+        Eigen::MatrixXd matrix = hessian;
         matrix.diagonal() = diagonal;
         block.factor.compute(matrix);
-        block.factored = block.factor.info() == Eigen::Success;
+        if (block.factor.info() == Eigen::Success) block.hessian = std::move(hessian);
     }
 }
 
-/// result = H vector, 0 off the support; `vector` is 0 there.
-void SupportNewton::apply(const std::vector<double>& vector, const std::vector<double>& weights,
-                          std::vector<double>& result) {
+/// x_hi . x_hk of the pairs at `places`: from the column's own, or anew where it has none.
+Eigen::MatrixXd SupportNewton::gram_of(std::size_t c, std::size_t h,
+                                       const std::vector<std::size_t>& places) const {
     const auto features = static_cast<std::size_t>(stack_.features);
-    exchange_.to_rows(vector, by_row_);
-    std::vector<double> row_sums(static_cast<std::size_t>(exchange_.owned_rows().size()) * features, 0.0);
-    for (std::int64_t r = 0; r < exchange_.owned_rows().size(); ++r) {
-        for (std::size_t p = exchange_.row_begin(r); p < exchange_.row_begin(r + 1); ++p) {
-            for (std::size_t h = 0; h < features; ++h)
-                row_sums[static_cast<std::size_t>(r) * features + h] += by_row_[p * features + h];
+    const ColumnFit& fit = fits_[c];
+    const auto count = static_cast<Eigen::Index>(places.size());
+    const auto pair = [&](Eigen::Index k) {
+        return (places[static_cast<std::size_t>(k)] - offset_[c]) / features;
+    };
+    Eigen::MatrixXd gram(count, count);
+    if (!fit.gram.empty()) {
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const std::size_t row = pair(k) * (pair(k) + 1) / 2;
+            for (Eigen::Index l = 0; l <= k; ++l)
+                gram(k, l) = gram(l, k) = fit.gram[(row + pair(l)) * features + h];
+        }
+        return gram;
+    }
+    Eigen::MatrixXd columns(stack_.rows_of(static_cast<int>(h)), count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const std::int64_t row = fit.rows[pair(k)];
+        std::copy_n(stack_.feature(static_cast<int>(h)) + row * stack_.dimension, columns.rows(),
+                    columns.col(k).data());
+    }
+    gram.noalias() = columns.transpose() * columns;
+    return gram;
+}
+
+/// result = 2 X^T X vector on the support.
+void SupportNewton::apply_fit(const std::vector<double>& vector, std::vector<double>& result) const {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    for (std::size_t c = 0; c < fits_.size(); ++c) {
+        const auto* const first = blocks_.data() + c * features;
+        if (std::any_of(first, first + features, [](const Block& block) {
+                return !block.places.empty() && block.hessian.size() == 0;
+            })) {
+            apply_gram(stack_, fits_[c], vector.data() + offset_[c], result.data() + offset_[c]);
+            for (std::size_t at = offset_[c]; at < offset_[c + 1]; ++at) result[at] *= 2.0;
+            continue;
+        }
+        for (const Block* block = first; block != first + features; ++block) {
+            Eigen::VectorXd part(static_cast<Eigen::Index>(block->places.size()));
+            for (Eigen::Index k = 0; k < part.size(); ++k)
+                part[k] = vector[block->places[static_cast<std::size_t>(k)]];
+            const Eigen::VectorXd product = block->hessian * part;
+            for (Eigen::Index k = 0; k < part.size(); ++k)
+                result[block->places[static_cast<std::size_t>(k)]] = product[k];
         }
     }
-    price_of_rows(row_sums);
-    for (std::size_t c = 0; c < fits_.size(); ++c)
-        apply_gram(stack_, fits_[c], vector.data() + offset_[c], result.data() + offset_[c]);
+}
+
+/// result = (H + added) vector, 0 off the support; `vector` is 0 there.
+void SupportNewton::apply(const std::vector<double>& vector, const std::vector<double>& weights, double added,
+                          std::vector<double>& result) {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    sum_along_rows(vector);
+    apply_fit(vector, result);
     for (std::size_t p = 0; p < inverse_norm_.size(); ++p) {
         const double inverse = inverse_norm_[p];
         double along = 0.0;
@@ -113,7 +150,7 @@ void SupportNewton::apply(const std::vector<double>& vector, const std::vector<d
             along += weights[at] * inverse * vector[at];
         for (std::size_t at = p * features; at < (p + 1) * features; ++at) {
             const double group = problem_.alpha * inverse * (vector[at] - along * weights[at] * inverse);
-            result[at] = weights[at] > 0.0 ? 2.0 * result[at] + row_part_[at] + group : 0.0;
+            result[at] = weights[at] > 0.0 ? result[at] + row_part_[at] + group + added * vector[at] : 0.0;
         }
     }
 }
@@ -124,7 +161,7 @@ void SupportNewton::precondition(const std::vector<double>& vector, std::vector<
         Eigen::VectorXd part(static_cast<Eigen::Index>(block.places.size()));
         for (Eigen::Index k = 0; k < part.size(); ++k)
             part[k] = vector[block.places[static_cast<std::size_t>(k)]];
-        if (block.factored) {
+        if (block.hessian.size() > 0) {
             block.factor.solveInPlace(part);
         } else {
             part.array() *= block.inverse_diagonal.array();
@@ -148,33 +185,27 @@ double SupportNewton::inner(const std::vector<double>& a, const std::vector<doub
     return sums_.scalar(0);
 }
 
-const std::vector<double>& SupportNewton::direction(const std::vector<double>& weights,
-                                                    const std::vector<double>& fit_gradient,
-                                                    const std::vector<double>& row_sums) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+const std::vector<double>& SupportNewton::solve(const std::vector<double>& weights,
+                                                const std::vector<double>& right_side, double added) {
     measure_groups(weights);
-    for (std::size_t c = 0; c < fits_.size(); ++c) factor_column(c, weights);
-    price_of_rows(row_sums);
-    residual_.assign(weights.size(), 0.0);
-    for (std::size_t at = 0; at < weights.size(); ++at) {
-        if (weights[at] <= 0.0) continue;
-        const double group = problem_.alpha * weights[at] * inverse_norm_[at / features];
-        residual_[at] = -(fit_gradient[at] + row_part_[at] + problem_.beta + group);
-    }
-    direction_.assign(weights.size(), 0.0);
-    preconditioned_.assign(weights.size(), 0.0);
+    for (std::size_t c = 0; c < fits_.size(); ++c) factor_column(c, weights, added);
+    residual_.resize(weights.size());
+    for (std::size_t at = 0; at < weights.size(); ++at)
+        residual_[at] = weights[at] > 0.0 ? right_side[at] : 0.0;
+    solution_.assign(weights.size(), 0.0);
+    preconditioned_.resize(weights.size());
     image_.assign(weights.size(), 0.0);
     precondition(residual_, preconditioned_);
     search_ = preconditioned_;
     double size = inner(residual_, preconditioned_);
     const double enough = sufficient_residual * sufficient_residual * size;
     for (int k = 0; k < conjugate_limit && size > enough; ++k) {
-        apply(search_, weights, image_);
+        apply(search_, weights, added, image_);
         const double curvature = inner(search_, image_);
         if (!(curvature > 0.0)) break;
         const double length = size / curvature;
         for (std::size_t at = 0; at < weights.size(); ++at) {
-            direction_[at] += length * search_[at];
+            solution_[at] += length * search_[at];
             residual_[at] -= length * image_[at];
         }
         precondition(residual_, preconditioned_);
@@ -183,7 +214,7 @@ const std::vector<double>& SupportNewton::direction(const std::vector<double>& w
             search_[at] = preconditioned_[at] + next / size * search_[at];
         size = next;
     }
-    return direction_;
+    return solution_;
 }
 
 }  // namespace coseg

@@ -10,7 +10,6 @@ namespace coseg {
 
 namespace {
 
-constexpr int newton_halvings = 8;
 enum Scalar : std::size_t { fit, penalty, distance2, curvature, scalar_count };
 
 std::vector<int> all_rows(const WorkingSet& working) {
@@ -45,7 +44,7 @@ WorkingSetModel::WorkingSetModel(const Comm& comm, const SubspaceProblem& proble
       offset_(value_offsets(working)),
       exchange_(comm, stack.size, stack.features, all_rows(working)),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
-      newton_(comm, problem, stack, working.fits, offset_, exchange_),
+      proximal_(comm, problem, stack, working.fits, offset_, linear_, exchange_),
       sums_(0, 1.0, scalar_count) {
     for (const ColumnFit& column : working.fits) {
         linear_.insert(linear_.end(), column.linear.begin(), column.linear.end());
@@ -67,19 +66,11 @@ TrialPoint WorkingSetModel::evaluate_forward() {
     return finish_trial();
 }
 
-double WorkingSetModel::newton_step() {
-    for (std::size_t at = 0; at < forward_.size(); ++at)
-        forward_[at] = 2.0 * (current_.product[at] - linear_[at]);
-    const std::vector<double>& direction = newton_.direction(current_.weights, forward_, current_.row_sums);
-    double size = 1.0;
-    for (int halving = 0; halving < newton_halvings; ++halving, size *= 0.5) {
-        for (std::size_t at = 0; at < forward_.size(); ++at)
-            forward_[at] = std::max(current_.weights[at] + size * direction[at], 0.0);
-        if (evaluate_forward().objective >= current_.objective) continue;
-        accept();
-        return size;
-    }
-    return 0.0;
+std::optional<int> WorkingSetModel::proximal_step(double reach) {
+    const ProximalPoint point = proximal_.minimise(current_.weights, current_.product, reach, prices_);
+    forward_ = point.weights;
+    if (evaluate_forward().objective < current_.objective) accept();
+    return point.reached ? std::optional(point.newton_steps) : std::nullopt;
 }
 
 /// From forward_ to the trial's weights; the penalties are added up tile by tile of rows.
@@ -94,19 +85,7 @@ void WorkingSetModel::shrink_rows(double step) {
         const std::span<double> row = std::span(by_row_).subspan(begin, end - begin);
         const std::size_t at = static_cast<std::size_t>(r) * features;
         if (step > 0.0) prox_.shrink(row, step, std::span(prices_).subspan(at, features));
-        std::fill_n(trial_.row_sums.begin() + static_cast<std::ptrdiff_t>(at), features, 0.0);
-        for (std::size_t p = 0; p < row.size(); p += features) {
-            double squares = 0.0;
-            for (std::size_t h = 0; h < features; ++h) {
-                trial_.row_sums[at + h] += row[p + h];
-                squares += row[p + h] * row[p + h];
-            }
-            tile_penalty += problem_.alpha * std::sqrt(squares);
-        }
-        for (std::size_t h = 0; h < features; ++h) {
-            const double sum = trial_.row_sums[at + h];
-            tile_penalty += problem_.lambda * sum * sum + problem_.beta * sum;
-        }
+        tile_penalty += prox_.penalty(row, std::span(trial_.row_sums).subspan(at, features));
         if ((r + 1) % coefficient_tile == 0 || r + 1 == rows) {
             sums_.add_scalar(penalty, tile_penalty);
             tile_penalty = 0.0;

@@ -7,15 +7,16 @@
 //   separates over rows and is solved exactly by their owners (row_prox.hpp). Convergence then does not
 //   depend on lambda.
 
+#include <optional>
 #include <vector>
 
 #include "solvers/column_fit.hpp"
 #include "solvers/exact_sum.hpp"
+#include "solvers/proximal_newton.hpp"
 #include "solvers/row_exchange.hpp"
 #include "solvers/row_prox.hpp"
 #include "solvers/spectral_projected_gradient.hpp"
 #include "solvers/subspace_problem.hpp"
-#include "solvers/support_newton.hpp"
 
 namespace coseg {
 
@@ -37,9 +38,9 @@ class WorkingSetModel {
     [[nodiscard]] double objective() const noexcept { return current_.objective; }
     TrialPoint propose(double step);
     void accept() { std::swap(current_, trial_); }
-    /// Replaces the current point by a better one along Newton's direction on its support, if there is one. Returns the
-    /// length of the step, 1 where the support holds; 0: the point stays. Collective.
-    double newton_step();
+    /// Replaces the current point by its proximal point of the given reach, if that is better. Returns how many Newton steps
+    /// it took; nothing where they did not lead there. Collective.
+    std::optional<int> proximal_step(double reach);
 
     /// Of this working set's own optimum. Collective.
     [[nodiscard]] double lower_bound() const;
@@ -69,7 +70,7 @@ class WorkingSetModel {
     std::vector<double> linear_;
     RowExchange exchange_;
     RowProx prox_;
-    SupportNewton newton_;
+    ProximalNewton proximal_;
     Point current_;
     Point trial_;
     std::vector<double> forward_;  ///< W - step G

@@ -13,11 +13,15 @@ namespace coseg {
 namespace {
 
 constexpr int inner_check_interval = 5;
-/// Newton's direction is tried from this iteration on a working set on, after each check; what gradient steps solve
+/// Proximal points are taken from this iteration on a working set on, one after each check; what gradient steps solve
 /// quickly, as where lambda is large, does not get there.
-constexpr int first_newton_step = 15;
-/// A step that is cut short, for the support is not the optimum's yet, makes the next one wait twice as long, up to this many checks.
-constexpr int longest_newton_wait = 6;
+constexpr int first_proximal_step = 15;
+/// Of the first proximal point on a working set, in units of the shortest gradient step. Where Newton's method finds one
+/// quickly the next reaches further, which brings it nearer to the optimum; where it does not, none will reach as far again.
+constexpr double first_reach = 10.0;
+constexpr double largest_reach = 1e5;
+constexpr double reach_growth = 3.0;
+constexpr int quick_newton_steps = 6;
 constexpr double smallest_inner_gap = 1e-16;
 /// Pairs that stay zero leave after each of the first passes; later they stay, so that no pair can come and
 /// go for ever.
@@ -115,14 +119,33 @@ void restore(const FeatureStack& stack, const SolveIterate& iterate, WorkingSet&
     prices = iterate.prices;
 }
 
-/// Spectral projected gradient on the working set until its own gap is small enough, or a limit, or the journal stops it.
+ProximalTurns first_turn(double shortest_step, const Progress& progress, const StoppingRule& rule) {
+    return {.next = first_proximal_step,
+            .reach = first_reach * shortest_step,
+            .largest_reach = largest_reach * shortest_step,
+            .sufficient_gap = std::max(progress.inner_gap, 0.1 * rule.relative_gap())};
+}
+
+void take_turn(WorkingSetModel& model, int iteration, ProximalTurns& turns) {
+    const std::optional<int> newton_steps = model.proximal_step(turns.reach);
+    turns.next = iteration + inner_check_interval;
+    if (!newton_steps) {
+        turns.reach /= reach_growth;
+        turns.largest_reach = turns.reach;
+    } else if (*newton_steps <= quick_newton_steps) {
+        turns.reach = std::min(turns.reach * reach_growth, turns.largest_reach);
+    }
+}
+
+/// Spectral projected gradient on the working set, with proximal points in between where it is slow, until its own gap is small enough, or a limit, or the journal stops it.
 /// from: where an earlier run was in this very solve, if it was.
 void solve_inside(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                   WorkingSet& working, std::vector<double>& prices, StoppingRule& rule, Progress& progress,
                   SolveResult& result, SolveJournal* journal, const SolveIterate* from) {
     WorkingSetModel model(comm, problem, stack, working, prices);
     const int before = result.iterations;
-    NewtonTurns turns = from != nullptr ? from->newton : NewtonTurns{.wait = 1, .next = first_newton_step};
+    const double shortest_step = 0.5 / stack.largest_inner;
+    ProximalTurns turns = from != nullptr ? from->proximal : first_turn(shortest_step, progress, rule);
     const auto keep = [&](const SpectralProgress& inner) {
         const JournalTurn turn = journal->turn();
         progress.stopped = turn == JournalTurn::keep_and_stop;
@@ -134,7 +157,7 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         iterate.lower_bound = rule.lower_bound();
         iterate.iterations = before;
         iterate.passes = result.passes;
-        iterate.newton = turns;
+        iterate.proximal = turns;
         iterate.history = result.history;
         journal->keep_iterate(iterate);
     };
@@ -145,11 +168,10 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         if (inner.iterations % inner_check_interval != 0) return false;
         progress.limited = rule.limit_reached(result.iterations, 1.0);
         const double gap = model.objective() - model.lower_bound();
-        if (progress.limited || gap <= progress.inner_gap * rule.scale(model.objective())) return true;
-        if (inner.iterations >= turns.next) {
-            turns.wait = model.newton_step() == 1.0 ? 1 : std::min(2 * turns.wait, longest_newton_wait);
-            turns.next = inner.iterations + turns.wait * inner_check_interval;
-        }
+        const double enough =
+            inner.iterations < first_proximal_step ? progress.inner_gap : turns.sufficient_gap;
+        if (progress.limited || gap <= enough * rule.scale(model.objective())) return true;
+        if (inner.iterations >= turns.next) take_turn(model, inner.iterations, turns);
         // After the step, so that a run that continues from here is where this one is.
         if (journal != nullptr) keep(inner);
         return progress.stopped;
@@ -157,7 +179,7 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
     if (from != nullptr)
         spectral_projected_gradient(model, from->spectral, stop);
     else
-        spectral_projected_gradient(model, 0.5 / stack.largest_inner, stop);
+        spectral_projected_gradient(model, shortest_step, stop);
     model.store(working);
     progress.objective = model.objective();
     progress.row_sums = model.row_sums();

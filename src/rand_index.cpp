@@ -36,20 +36,15 @@ double disagreement(const PairSums& sums) {
     return sums.together_in_labels + sums.together_in_truth - 2.0 * sums.together_in_both;
 }
 
-PairSums weighted_pairs(const std::vector<int>& truth, const std::vector<int>& labels,
-                        const std::vector<double>& weight) {
-    std::map<Cell, double> weights;
-    for (std::size_t item = 0; item < truth.size(); ++item) {
-        if (truth[item] >= 0) weights[{labels[item], truth[item]}] += weight[item];
-    }
-    return pair_sums(weights);
-}
-
 }  // namespace
 
 double rand_index(const std::vector<int>& truth, const std::vector<int>& labels,
                   const std::vector<double>& weight) {
-    const PairSums sums = weighted_pairs(truth, labels, weight);
+    std::map<Cell, double> weights;
+    for (std::size_t item = 0; item < truth.size(); ++item) {
+        if (truth[item] >= 0) weights[{labels[item], truth[item]}] += weight[item];
+    }
+    const PairSums sums = pair_sums(weights);
     return sums.total > 0.0 ? 1.0 - disagreement(sums) / (sums.total * sums.total) : 0.0;
 }
 
@@ -61,16 +56,6 @@ double rand_index(const std::vector<int>& truth, const std::vector<int>& labels)
     const PairSums sums = pair_sums(counts);
     if (sums.total <= 1.0) return sums.total;
     return 1.0 - disagreement(sums) / (sums.total * (sums.total - 1.0));
-}
-
-double adjusted_rand_index(const std::vector<int>& truth, const std::vector<int>& labels,
-                           const std::vector<double>& weight) {
-    const PairSums sums = weighted_pairs(truth, labels, weight);
-    if (sums.total <= 0.0) return 0.0;
-    const double by_chance = sums.together_in_labels * sums.together_in_truth / (sums.total * sums.total);
-    const double most = 0.5 * (sums.together_in_labels + sums.together_in_truth);
-    const bool single = most - by_chance <= 1e-12 * most;
-    return single ? 1.0 : (sums.together_in_both - by_chance) / (most - by_chance);
 }
 
 }  // namespace coseg

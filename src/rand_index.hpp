@@ -16,10 +16,4 @@ double rand_index(const std::vector<int>& truth, const std::vector<int>& labels,
 /// The same over the pairs of two different items, all of equal weight. 1 for a single item, 0 for none.
 double rand_index(const std::vector<int>& truth, const std::vector<int>& labels);
 
-/// The first index less what two independent segmentations with the same parts would reach, over what is then left
-/// to reach: 1 for the same segmentation, 0 on average for unrelated ones, which may fall below. 1 where both have
-/// a single part. Weights and negative truth as above. Source: Hubert and Arabie 1985.
-double adjusted_rand_index(const std::vector<int>& truth, const std::vector<int>& labels,
-                           const std::vector<double>& weight);
-
 }  // namespace coseg

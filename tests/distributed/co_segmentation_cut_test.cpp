@@ -117,7 +117,7 @@ TEST_P(CoSegmentationCut, AllRanksTogetherFindWhatOneFindsAlone) {
     const int parts = GetParam();
     const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
     CutOptions options = pooled(parts);
-    options.starts = {{{2.0, 2.0}, 2 * parts, {2.0, 2.0}, MergeRule::normalized_cut}};
+    options.starts = {{{2.0, 2.0}, 2 * parts, {2.0, 2.0}}};
     options.starts.push_back(single_start(parts, 5.0)[0]);
     const CutResult dealt = cut(comm, toy, options);
     options.one_rank_entries = 0;

@@ -93,19 +93,6 @@ Attempt attempt(const Comm& comm, const std::string& folder, int turns) {
     return done;
 }
 
-void expect_same(const SolveResult& a, const SolveResult& b) {
-    EXPECT_EQ(a.objective, b.objective);
-    EXPECT_EQ(a.lower_bound, b.lower_bound);
-    EXPECT_EQ(a.relative_gap, b.relative_gap);
-    EXPECT_EQ(a.iterations, b.iterations);
-    EXPECT_EQ(a.passes, b.passes);
-    EXPECT_EQ(a.history, b.history);
-    EXPECT_EQ(a.reason, b.reason);
-    EXPECT_EQ(a.nonzero_groups, b.nonzero_groups);
-    EXPECT_EQ(a.coefficients.rows, b.coefficients.rows);
-    EXPECT_EQ(a.coefficients.values, b.coefficients.values);
-}
-
 TEST(TileJournal, AnIterateContinuesToTheLastBitOnOtherRanks) {
     const Comm world(MPI_COMM_WORLD);
     const Comm alone = world.split(world.rank());
@@ -123,10 +110,10 @@ TEST(TileJournal, AnIterateContinuesToTheLastBitOnOtherRanks) {
     EXPECT_TRUE(attempt(world, folder.path(), 2).checkpointed);
     const Attempt last = attempt(world, folder.path(), never);
     EXPECT_FALSE(last.checkpointed);
-    expect_same(last.result, left_alone);
+    expect_same_solution(last.result, left_alone);
     const Attempt again = attempt(world, folder.path(), 1);  // what is finished takes no turn
     EXPECT_EQ(again.found, 1);
-    expect_same(again.result, left_alone);
+    expect_same_solution(again.result, left_alone);
 }
 
 TEST(TileJournal, ADamagedIterateIsNamedAndSetAside) {
@@ -145,7 +132,7 @@ TEST(TileJournal, ADamagedIterateIsNamedAndSetAside) {
     }
     MPI_Barrier(world.raw());
     const Attempt last = attempt(world, folder.path(), never);
-    expect_same(last.result, left_alone);
+    expect_same_solution(last.result, left_alone);
     EXPECT_EQ(last.found, 0);
     ASSERT_FALSE(last.warnings.empty());
     if (!world.is_root()) return;

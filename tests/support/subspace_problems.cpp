@@ -1,8 +1,11 @@
 #include "tests/support/subspace_problems.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <span>
 
 #include "src/seeded_random.hpp"
 
@@ -34,6 +37,33 @@ void change_features(SubspaceProblem& problem, const std::function<void(Eigen::M
     std::vector<Eigen::MatrixXd> matrices = problem.features.matrices();
     for (Eigen::MatrixXd& feature : matrices) change(feature);
     problem.features = matrices;
+}
+
+SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& mine) {
+    SparseCoefficients all{mine.size, {0, mine.size}, mine.features, {0}, {}, {}};
+    all.rows = all_gather(comm, std::span<const int>(mine.rows));
+    all.values = all_gather(comm, std::span<const double>(mine.values));
+    std::vector<std::int64_t> counts;
+    for (std::size_t c = 0; c + 1 < mine.offsets.size(); ++c)
+        counts.push_back(mine.offsets[c + 1] - mine.offsets[c]);
+    for (const std::int64_t count : all_gather(comm, std::span<const std::int64_t>(counts))) {
+        all.offsets.push_back(all.offsets.back() + count);
+    }
+    return all;
+}
+
+void expect_same_solution(const SolveResult& a, const SolveResult& b) {
+    EXPECT_EQ(a.objective, b.objective);
+    EXPECT_EQ(a.lower_bound, b.lower_bound);
+    EXPECT_EQ(a.relative_gap, b.relative_gap);
+    EXPECT_EQ(a.iterations, b.iterations);
+    EXPECT_EQ(a.passes, b.passes);
+    EXPECT_EQ(a.history, b.history);
+    EXPECT_EQ(a.reason, b.reason);
+    EXPECT_EQ(a.nonzero_groups, b.nonzero_groups);
+    EXPECT_EQ(a.coefficients.offsets, b.coefficients.offsets);
+    EXPECT_EQ(a.coefficients.rows, b.coefficients.rows);
+    EXPECT_EQ(a.coefficients.values, b.coefficients.values);
 }
 
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients) {

@@ -7,6 +7,8 @@
 
 #include "solvers/coefficients.hpp"
 #include "solvers/subspace_problem.hpp"
+#include "solvers/subspace_solver.hpp"
+#include "src/comm.hpp"
 
 namespace coseg {
 
@@ -16,6 +18,12 @@ SubspaceProblem random_subspace_problem(int features, int rows, int columns, int
 
 /// Changes every feature of a problem; those that it has been copied from keep theirs.
 void change_features(SubspaceProblem& problem, const std::function<void(Eigen::MatrixXd&)>& change);
+
+/// The coefficients of all columns on every rank. Collective.
+SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& mine);
+
+/// Bounds, counts and coefficients must agree to the bit.
+void expect_same_solution(const SolveResult& a, const SolveResult& b);
 
 /// W_h of all columns, dense: `weights[h]` is N x N. Requires coefficients that own all columns.
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients);

@@ -10,9 +10,6 @@
 namespace coseg {
 namespace {
 
-/// One mesh that all clusters share evenly.
-Eigen::MatrixXd even_shares(int clusters) { return Eigen::MatrixXd::Constant(clusters, 1, 1.0 / clusters); }
-
 ClusterLinks random_links(int clusters, std::uint64_t seed) {
     ClusterLinks c{Eigen::MatrixXd::Zero(clusters, clusters), Eigen::VectorXd::Zero(clusters)};
     SeededStream random(seed);
@@ -46,8 +43,7 @@ TEST(ClusterMerging, OneMergerIsTheBestOfAllPairs) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         constexpr int clusters = 6;
         const ClusterLinks c = random_links(clusters, seed);
-        const std::vector<int> merged = merge_clusters(
-            c, even_shares(clusters), std::vector<int>(clusters, 1), clusters - 1, MergeRule::normalized_cut);
+        const std::vector<int> merged = merge_clusters(c, std::vector<int>(clusters, 1), clusters - 1);
         double best = 1e9;
         for (int a = 0; a < clusters; ++a) {
             for (int b = a + 1; b < clusters; ++b) {
@@ -67,39 +63,13 @@ TEST(ClusterMerging, PutsHalvesTogether) {
     for (int a = 0; a < 6; ++a) c.links(a, a) = 2.0;
     for (int a = 0; a < 3; ++a) c.links(a, a + 3) = c.links(a + 3, a) = 1.5;
     c.volume = c.links.rowwise().sum();
-    for (const MergeRule rule : {MergeRule::normalized_cut, MergeRule::affinity}) {
-        EXPECT_EQ(merge_clusters(c, even_shares(6), std::vector<int>(6, 4), 3, rule),
-                  (std::vector<int>{0, 1, 2, 0, 1, 2}));
-    }
+    EXPECT_EQ(merge_clusters(c, std::vector<int>(6, 4), 3), (std::vector<int>{0, 1, 2, 0, 1, 2}));
 }
 
 TEST(ClusterMerging, EmptyClustersDoNotCountAndTiesGoToTheLowest) {
     ClusterLinks c{Eigen::MatrixXd::Constant(5, 5, 1.0), Eigen::VectorXd::Constant(5, 5.0)};
-    EXPECT_EQ(merge_clusters(c, even_shares(5), {3, 0, 2, 2, 1}, 3, MergeRule::normalized_cut),
-              (std::vector<int>{0, -1, 0, 1, 2}));
-    EXPECT_EQ(merge_clusters(c, even_shares(5), {3, 0, 0, 0, 1}, 3, MergeRule::normalized_cut),
-              (std::vector<int>{0, -1, -1, -1, 1}));
-}
-
-TEST(ClusterMerging, WhatTakesTurnsIsOnePartAndWhatSitsTogetherIsTwo) {
-    // Clusters 0 and 1 come together on all four shapes; 2 and 3 take turns. 0-1 are the closest pair all the
-    // same.
-    ClusterLinks c{Eigen::MatrixXd::Constant(4, 4, 0.1), Eigen::VectorXd::Zero(4)};
-    for (int a = 0; a < 4; ++a) c.links(a, a) = 2.0;
-    c.links(0, 1) = c.links(1, 0) = 1.0;
-    c.links(2, 3) = c.links(3, 2) = 0.8;
-    c.volume = c.links.rowwise().sum();
-    Eigen::MatrixXd shares(4, 4);
-    shares << 0.3, 0.3, 0.3, 0.3,  //
-        0.3, 0.3, 0.3, 0.3,        //
-        0.4, 0.4, 0.0, 0.0,        //
-        0.0, 0.0, 0.4, 0.4;
-    const std::vector<int> sizes(4, 8);
-    EXPECT_EQ(merge_clusters(c, shares, sizes, 3, MergeRule::affinity), (std::vector<int>{0, 0, 1, 2}));
-    EXPECT_EQ(merge_clusters(c, shares, sizes, 3, MergeRule::alternation), (std::vector<int>{0, 1, 2, 2}));
-    EXPECT_EQ(companionship(shares, 0, 1), 1.0);
-    EXPECT_EQ(companionship(shares, 2, 3), 0.0);
-    EXPECT_DOUBLE_EQ(companionship(shares, 0, 2), 0.6 / 0.8);
+    EXPECT_EQ(merge_clusters(c, {3, 0, 2, 2, 1}, 3), (std::vector<int>{0, -1, 0, 1, 2}));
+    EXPECT_EQ(merge_clusters(c, {3, 0, 0, 0, 1}, 3), (std::vector<int>{0, -1, -1, -1, 1}));
 }
 
 TEST(ClusterMerging, SharesOfAMeshSumToOne) {

@@ -78,6 +78,37 @@ TEST(FeatureFile, RefusesPartsThatDoNotFit) {
     EXPECT_TRUE(has(complaint([](FeatureFile& f) { f.concavity.clear(); }), "different lengths"));
     EXPECT_TRUE(has(complaint([](FeatureFile& f) { f.overlaps.weight[1] = std::nan(""); }), "pair 1"));
     EXPECT_TRUE(has(complaint([](FeatureFile& f) { f.overlaps.first.pop_back(); }), "different lengths"));
+    EXPECT_TRUE(has(complaint([](FeatureFile& f) { f.mesh_of[2] = 2000000000; }), "2000000000"));
+}
+
+TEST(FeatureFile, RefusesNumbersThatAreNone) {
+    for (const double bad : {std::nan(""), HUGE_VAL, -0.5}) {
+        const auto complains = [bad](auto member, const std::string& words) {
+            const TemporaryFolder folder;
+            FeatureFile file = example();
+            member(file) = bad;
+            write_feature_file(folder.path("f.h5"), file);
+            const auto caught = error_of([&] { read_feature_file(folder.path("f.h5")); });
+            return caught.code == ExitCode::input && caught.sentence.find(words) != std::string::npos;
+        };
+        const auto area = [](FeatureFile& f) -> double& { return f.patch_area[1]; };
+        const auto length = [](FeatureFile& f) -> double& { return f.neighbors.weight[0]; };
+        const auto concavity = [](FeatureFile& f) -> double& { return f.concavity[0]; };
+        EXPECT_TRUE(complains(area, "'patch_area'")) << bad;
+        EXPECT_TRUE(complains(length, "'neighbors', pair 0")) << bad;
+        EXPECT_TRUE(complains(concavity, "'neighbors/concavity'")) << bad;
+    }
+}
+
+TEST(FeatureFile, RefusesGroupsThatAreNoIntegers) {
+    const TemporaryFolder folder;
+    Hdf5Writer writer(folder.path("f.h5"), "somebody else's", 7);
+    writer.write("features/1", std::vector<float>{1, 4, 2, 5, 3, 6}, {3, 2});
+    writer.write("mesh_of", std::vector<double>{0.0, 0.5, 1.0});
+    writer.commit();
+    const auto caught = error_of([&] { read_feature_file(folder.path("f.h5")); });
+    EXPECT_EQ(caught.code, ExitCode::input);
+    EXPECT_NE(caught.sentence.find("'mesh_of' holds floating-point numbers"), std::string::npos);
 }
 
 TEST(FeatureFile, RefusesFilesWithoutFeatures) {

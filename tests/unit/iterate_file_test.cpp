@@ -31,7 +31,7 @@ SolveIterate made_iterate(std::int64_t begin, std::int64_t end) {
     iterate.lower_bound = 7.5;
     iterate.iterations = 40;
     iterate.passes = 3;
-    iterate.newton = {4, 35};
+    iterate.proximal = {35, 250.0, 1e5, 0.03};
     iterate.history = {{1, 0, 9.5, 1.0 / 3.0, 0.9, 0}, {2, 40, 8.75, 7.5, 1.25 / 8.75, 5000000000}};
     iterate.finished = true;
     iterate.objective = 8.5;
@@ -54,8 +54,10 @@ void expect_equal(const SolveIterate& a, const SolveIterate& b) {
     EXPECT_EQ(a.lower_bound, b.lower_bound);
     EXPECT_EQ(a.iterations, b.iterations);
     EXPECT_EQ(a.passes, b.passes);
-    EXPECT_EQ(a.newton.wait, b.newton.wait);
-    EXPECT_EQ(a.newton.next, b.newton.next);
+    EXPECT_EQ(a.proximal.next, b.proximal.next);
+    EXPECT_EQ(a.proximal.reach, b.proximal.reach);
+    EXPECT_EQ(a.proximal.largest_reach, b.proximal.largest_reach);
+    EXPECT_EQ(a.proximal.sufficient_gap, b.proximal.sufficient_gap);
     EXPECT_EQ(a.history, b.history);
     EXPECT_EQ(a.finished, b.finished);
     EXPECT_EQ(a.objective, b.objective);

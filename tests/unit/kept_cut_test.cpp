@@ -14,7 +14,7 @@ TEST(KeptCut, ReturnsWhatWasWritten) {
     cut.part_share = {0.5, 0.3, 0.2};
     cut.meshes_with_part = {2, 2, 1};
     cut.starts.resize(2);
-    cut.starts[0].start = {{1.0, 2.0}, 5, {4.0, 8.0}, MergeRule::normalized_cut};
+    cut.starts[0].start = {{1.0, 2.0}, 5, {4.0, 8.0}};
     cut.starts[0].terms = {.association = 0.9,
                            .crease = -0.1,
                            .overlap = 1.0 / 3.0,
@@ -43,7 +43,6 @@ TEST(KeptCut, ReturnsWhatWasWritten) {
         EXPECT_EQ(a.start.cut, b.start.cut);
         EXPECT_EQ(a.start.clusters, b.start.clusters);
         EXPECT_EQ(a.start.merging, b.start.merging);
-        EXPECT_EQ(a.start.rule, b.start.rule);
         EXPECT_EQ(a.terms.association, b.terms.association);
         EXPECT_EQ(a.terms.concavity, b.terms.concavity);
         EXPECT_EQ(a.terms.crease, b.terms.crease);

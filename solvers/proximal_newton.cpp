@@ -1,0 +1,171 @@
+#include "solvers/proximal_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "solvers/coefficients.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr int newton_limit = 20;
+constexpr int halving_limit = 12;
+constexpr double sufficient_increase = 1e-4;
+/// ||X W - X V|| <= this * ||W - centre|| / sqrt(reach) is near enough to the proximal point.
+constexpr double sufficient_gradient = 0.3;
+constexpr double smallest_gradient = 1e-14;  ///< relative to ||X||
+enum Scalar : std::size_t { value, gradient2, distance2, scalar_count };
+
+}  // namespace
+
+ProximalNewton::ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
+                               const std::vector<ColumnFit>& fits, const std::vector<std::size_t>& offset,
+                               const std::vector<double>& linear, RowExchange& exchange)
+    : comm_(comm),
+      stack_(stack),
+      fits_(fits),
+      offset_(offset),
+      linear_(linear),
+      exchange_(exchange),
+      prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
+      newton_(comm, problem, stack, fits, offset, exchange),
+      sums_(0, 1.0, scalar_count) {}
+
+void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double>& product) const {
+    product.resize(vector.size());
+    for (std::size_t c = 0; c < fits_.size(); ++c)
+        apply_gram(stack_, fits_[c], vector.data() + offset_[c], product.data() + offset_[c]);
+}
+
+/// by_row_ becomes W; the penalties are added up tile by tile of rows.
+void ProximalNewton::shrink_rows(double reach, std::vector<double>& prices) {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    std::vector<double> row_sums(features);
+    double tile_penalty = 0.0;
+    const std::int64_t rows = exchange_.owned_rows().size();
+    for (std::int64_t r = 0; r < rows; ++r) {
+        const std::size_t begin = exchange_.row_begin(r) * features;
+        const std::span<double> row =
+            std::span(by_row_).subspan(begin, exchange_.row_begin(r + 1) * features - begin);
+        prox_.shrink(row, reach, std::span(prices).subspan(static_cast<std::size_t>(r) * features, features));
+        tile_penalty += prox_.penalty(row, row_sums);
+        if ((r + 1) % coefficient_tile == 0 || r + 1 == rows) {
+            sums_.add_scalar(value, tile_penalty);
+            tile_penalty = 0.0;
+        }
+    }
+}
+
+/// Calls add(at, sums) for every value of every column, sums[k] being those of a coefficient tile: one addend of the k-th
+/// scalar, so that bits do not depend on the ranks.
+template <class Add>
+void ProximalNewton::sum_by_tiles(Add&& add) {
+    double tile[scalar_count] = {};
+    for (std::size_t c = 0; c < fits_.size(); ++c) {
+        for (std::size_t at = offset_[c]; at < offset_[c + 1]; ++at) add(at, tile);
+        if ((c + 1) % coefficient_tile != 0 && c + 1 != fits_.size()) continue;
+        for (std::size_t k = 0; k < scalar_count; ++k) sums_.add_scalar(k, std::exchange(tile[k], 0.0));
+    }
+    sums_.reduce(comm_);
+}
+
+/// Fills in W, the dual's value and the distance, which follow from `dual` and its product.
+void ProximalNewton::evaluate(Point& point, const std::vector<double>& centre, double reach,
+                              std::vector<double>& prices) {
+    forward_.resize(centre.size());
+    for (std::size_t at = 0; at < centre.size(); ++at)
+        forward_[at] = centre[at] - 2.0 * reach * (point.dual_product[at] - linear_[at]);
+    exchange_.to_rows(forward_, by_row_);
+    sums_.clear();
+    shrink_rows(reach, prices);
+    exchange_.to_columns(by_row_, point.weights);
+    sum_by_tiles([&](std::size_t at, double* tile) {
+        const double weight = point.weights[at];
+        const double change = weight - centre[at];
+        tile[value] += 2.0 * (point.dual_product[at] - linear_[at]) * weight -
+                       point.dual[at] * point.dual_product[at] + change * change / (2.0 * reach);
+        tile[distance2] += change * change;
+    });
+    point.value = sums_.overflowed() ? -std::numeric_limits<double>::infinity()
+                                     : stack_.squared_norm + sums_.scalar(value);
+    point.distance2 = sums_.scalar(distance2);
+}
+
+/// Fills in G W and the dual's gradient.
+void ProximalNewton::differentiate(Point& point) {
+    apply(point.weights, point.product);
+    sums_.clear();
+    sum_by_tiles([&](std::size_t at, double* tile) {
+        tile[gradient2] +=
+            (point.product[at] - point.dual_product[at]) * (point.weights[at] - point.dual[at]);
+    });
+    point.gradient2 = std::max(sums_.scalar(gradient2), 0.0);
+}
+
+/// Newton's direction of V. Returns the dual's slope along it, which is not negative.
+double ProximalNewton::find_direction(double reach) {
+    const std::size_t count = current_.weights.size();
+    direction_.resize(count);
+    for (std::size_t at = 0; at < count; ++at)
+        direction_[at] = 2.0 * (current_.dual_product[at] - current_.product[at]);
+    const std::vector<double>& change = newton_.solve(current_.weights, direction_, 1.0 / reach);
+    for (std::size_t at = 0; at < count; ++at)
+        direction_[at] = current_.weights[at] + change[at] - current_.dual[at];
+    apply(direction_, direction_product_);
+    sums_.clear();
+    sum_by_tiles([&](std::size_t at, double* tile) {
+        tile[value] += 2.0 * (current_.product[at] - current_.dual_product[at]) * direction_[at];
+    });
+    return sums_.scalar(value);
+}
+
+/// False if no step of the direction raises the dual.
+bool ProximalNewton::step_along_direction(const std::vector<double>& centre, double reach, double slope,
+                                          std::vector<double>& prices) {
+    const std::size_t count = centre.size();
+    trial_.dual.resize(count);
+    trial_.dual_product.resize(count);
+    // Near the optimum an increase drowns in the value's last bits.
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * stack_.squared_norm;
+    double size = 1.0;
+    for (int halving = 0; halving < halving_limit; ++halving, size *= 0.5) {
+        for (std::size_t at = 0; at < count; ++at) {
+            trial_.dual[at] = current_.dual[at] + size * direction_[at];
+            trial_.dual_product[at] = current_.dual_product[at] + size * direction_product_[at];
+        }
+        evaluate(trial_, centre, reach, prices);
+        if (trial_.value < current_.value + sufficient_increase * size * slope - rounding) continue;
+        std::swap(current_, trial_);
+        differentiate(current_);
+        return true;
+    }
+    return false;
+}
+
+ProximalPoint ProximalNewton::minimise(const std::vector<double>& centre,
+                                       const std::vector<double>& centre_product, double reach,
+                                       std::vector<double>& prices) {
+    current_.dual = centre;
+    current_.dual_product = centre_product;
+    evaluate(current_, centre, reach, prices);
+    differentiate(current_);
+    // At the optimum itself nothing moves but the last bits.
+    const double rounding2 = smallest_gradient * smallest_gradient * stack_.squared_norm;
+    const auto reached = [&] {
+        return current_.gradient2 <=
+               std::max(sufficient_gradient * sufficient_gradient * current_.distance2 / reach, rounding2);
+    };
+    int steps = 0;
+    while (steps < newton_limit && !reached()) {
+        const double slope = find_direction(reach);
+        if (!step_along_direction(centre, reach, slope, prices)) break;
+        ++steps;
+    }
+    return {current_.weights, steps, reached()};
+}
+
+}  // namespace coseg
