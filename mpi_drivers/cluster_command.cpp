@@ -46,6 +46,14 @@ void broadcast(const Comm& comm, std::vector<double>& values) {
     values = all_gather(comm, std::span<const double>(values));
 }
 
+/// A message about matrices, in the terms of the file.
+std::string in_terms_of(const FeatureFile& file, const std::string& path, const std::string& message) {
+    std::string names;
+    for (const std::string& name : file.names) names += (names.empty() ? "" : ", ") + name;
+    return path + ": " + message + " (features are the datasets of 'features' in the order " + names +
+           ", columns their rows, both counted from 1)";
+}
+
 /// Rank 0 reads, and its features become those of all; relations stay there, since each is to be given to the cut by
 /// one rank.
 FeatureFile read_and_broadcast(const Comm& comm, const std::string& path, FeatureMatrices& features) {
@@ -53,12 +61,16 @@ FeatureFile read_and_broadcast(const Comm& comm, const std::string& path, Featur
     agree(comm, [&] {
         if (comm.is_root()) file = read_feature_file(path);
     });
-    features = share_matrices(comm, file.features);
+    broadcast_texts(comm, file.names);
+    try {
+        features = share_matrices(comm, file.features);
+    } catch (const AgreedError& error) {
+        throw AgreedError(error.code(), in_terms_of(file, path, error.what()));
+    }
     file.features.clear();
     broadcast(comm, file.mesh_of);
     broadcast(comm, file.patch_area);
     broadcast_texts(comm, file.mesh_names);
-    broadcast_texts(comm, file.names);
     return file;
 }
 
@@ -94,11 +106,7 @@ void validate(const SubspaceProblem& problem, const FeatureFile& file, const Clu
     try {
         validate(problem);
     } catch (const Error& error) {
-        std::string names;
-        for (const std::string& name : file.names) names += (names.empty() ? "" : ", ") + name;
-        throw Error(error.code(), settings.path + ": " + error.what() +
-                                      " (features are the datasets of 'features' in the order " + names +
-                                      ", columns their rows, both counted from 1)");
+        throw Error(error.code(), in_terms_of(file, settings.path, error.what()));
     }
     if (settings.parts > problem.size()) {
         throw Error(ExitCode::usage, std::to_string(settings.parts) + " parts are asked for, but " +
