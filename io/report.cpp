@@ -131,6 +131,8 @@ Json of_features(const Report& report) {
 
 }  // namespace
 
+std::string history_json(const std::vector<ReportPass>& history) { return of_history(history).dump(); }
+
 void write_report(const std::string& path, const Report& report) {
     Json root;
     root["format"] = "coseg report 1";

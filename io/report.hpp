@@ -126,6 +126,9 @@ struct Report {
     std::vector<std::int64_t> pairs_by_feature_count;  ///< pairs with 1, 2, ... nonzero features
 };
 
+/// The history as the report has it: the text of a JSON array.
+std::string history_json(const std::vector<ReportPass>& history);
+
 /// Throws Error(output) if the file cannot be written.
 void write_report(const std::string& path, const Report& report);
 

@@ -7,6 +7,7 @@
 #include "io/ply_writer.hpp"
 #include "io/png_writer.hpp"
 #include "io/report.hpp"
+#include "mpi_drivers/solution_output.hpp"
 #include "mpi_drivers/version.hpp"
 #include "solvers/affinity_picture.hpp"
 #include "solvers/feature_strength.hpp"
@@ -62,11 +63,6 @@ std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::Ma
 
 ReportOptimisation report_optimisation(const RunOutcome& outcome) {
     const SolveResult& solution = outcome.optimisation.result;
-    std::vector<ReportPass> history;
-    for (const HistoryRow& row : solution.history) {
-        history.push_back(
-            {row.pass, row.iterations, row.objective, row.lower_bound, row.relative_gap, row.working_pairs});
-    }
     return {.variant = outcome.optimisation.variant,
             .scope = outcome.optimisation.scope,
             .links = outcome.optimisation.links,
@@ -83,7 +79,7 @@ ReportOptimisation report_optimisation(const RunOutcome& outcome) {
             .iterations = solution.iterations,
             .nonzero_groups = solution.nonzero_groups,
             .reason = to_string(solution.reason),
-            .history = std::move(history)};
+            .history = report_passes(solution.history)};
 }
 
 void add_strengths(Report& report, const FeatureStrength& strength, const RunOutcome& outcome) {

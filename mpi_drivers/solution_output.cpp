@@ -7,16 +7,17 @@
 
 namespace coseg {
 
-std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result) {
-    nlohmann::ordered_json history = nlohmann::ordered_json::array();
-    for (const HistoryRow& row : result.history) {
-        history.push_back({{"pass", row.pass},
-                           {"iterations", row.iterations},
-                           {"objective", row.objective},
-                           {"lower_bound", row.lower_bound},
-                           {"relative_gap", row.relative_gap},
-                           {"working_pairs", row.working_pairs}});
+std::vector<ReportPass> report_passes(const SolveHistory& history) {
+    std::vector<ReportPass> passes;
+    for (const HistoryRow& row : history) {
+        passes.push_back(
+            {row.pass, row.iterations, row.objective, row.lower_bound, row.relative_gap, row.working_pairs});
     }
+    return passes;
+}
+
+std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result) {
+    const auto history = nlohmann::ordered_json::parse(history_json(report_passes(result.history)));
     const nlohmann::ordered_json json = {{"objective", result.objective},
                                          {"lower_bound", result.lower_bound},
                                          {"relative_gap", result.relative_gap},

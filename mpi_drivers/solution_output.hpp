@@ -1,13 +1,18 @@
 #pragma once
-// What `coseg solve` and `coseg cluster` share: the certificate as JSON, W to a file, and the refusals that follow a
+// What the commands that solve share: the certificate as JSON, the history, W to a file, and the refusals that follow a
 // solve.
 
 #include <string>
+#include <vector>
 
+#include "io/report.hpp"
 #include "solvers/subspace_solver.hpp"
 #include "src/comm.hpp"
 
 namespace coseg {
+
+/// The solver's history as reports have it.
+std::vector<ReportPass> report_passes(const SolveHistory& history);
 
 /// Objective, bounds, gap, counts, reason and the problem's sizes and penalties: the text of a JSON object.
 std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result);
