@@ -2,13 +2,7 @@
 
 #include <algorithm>
 
-// Distributed binaries are built for the least of the machines; gcc then picks the widest form at run time. The
-// sanitizers cannot instrument that choice.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define COSEG_FOR_EVERY_WIDTH __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define COSEG_FOR_EVERY_WIDTH
-#endif
+#include "src/vector_clones.hpp"
 
 namespace coseg {
 

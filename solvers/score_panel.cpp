@@ -1,14 +1,8 @@
 #include "solvers/score_panel.hpp"
 
-// One text for every width of vectors: the compiler's own vectors, in functions for the machines that have them. The
-// sanitizers cannot instrument the choice at run time.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define COSEG_CHOOSES_WIDTH 1
-#define COSEG_FOR_EVERY_WIDTH __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define COSEG_CHOOSES_WIDTH 0
-#define COSEG_FOR_EVERY_WIDTH
-#endif
+#include "src/vector_clones.hpp"
+
+// One text for every width of vectors: the compiler's own vectors, in functions for the machines that have them.
 #define COSEG_INLINE __attribute__((always_inline)) inline
 
 namespace coseg {

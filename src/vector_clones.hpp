@@ -9,3 +9,13 @@
 #else
 #define COSEG_VECTOR_CLONES
 #endif
+
+/// The same for the widest vectors there are, and whether such a choice at run time can be made: the sanitizers cannot
+/// instrument it. With 512 bits come fused multiply-adds, so bits may depend on the machine.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define COSEG_CHOOSES_WIDTH 1
+#define COSEG_FOR_EVERY_WIDTH __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define COSEG_CHOOSES_WIDTH 0
+#define COSEG_FOR_EVERY_WIDTH
+#endif
