@@ -7,6 +7,7 @@
 #include <span>
 
 #include "solvers/coefficients.hpp"
+#include "solvers/inner_product.hpp"
 #include "solvers/pass_clock.hpp"
 #include "solvers/score_panel.hpp"
 
@@ -24,17 +25,6 @@ static_assert(coefficient_tile % group_columns == 0);
 constexpr double single_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 /// Pairs whose norm, with a rounding error on top, exceeds its limit by less than so many are looked at again in double.
 constexpr double doubtful = 5.0;
-
-/// In four parts, which do not wait for one another.
-double sum_of_squares(const double* x, int count) {
-    double sum[4] = {0.0, 0.0, 0.0, 0.0};
-    int k = 0;
-    for (; k + 4 <= count; k += 4) {
-        for (int l = 0; l < 4; ++l) sum[l] += x[k + l] * x[k + l];
-    }
-    for (; k < count; ++k) sum[0] += x[k] * x[k];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
 
 int longest_feature(const FeatureStack& stack) {
     int longest = 0;
@@ -153,8 +143,8 @@ void AllPairsPass::set_column(Tile& tile, int column) const {
         for (int k = 0; k < depth; ++k) u[k] = 2.0 * (x[k] - z[k]);
         for (int k = 0; k < depth; ++k)
             dual[static_cast<std::ptrdiff_t>(k) * group_columns] = static_cast<float>(u[k]);
-        const double squares = sum_of_squares(u, depth);
-        const double error = rounding_ * std::sqrt(squares) * largest_norm_[static_cast<std::size_t>(h)];
+        const double error =
+            rounding_ * std::sqrt(inner_product(u, u, depth)) * largest_norm_[static_cast<std::size_t>(h)];
         errors2 += error * error;
         tile.errors[static_cast<std::size_t>(h * tile.columns() + column)] = static_cast<float>(error);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "solvers/inner_product.hpp"
 #include "src/vector_clones.hpp"
 
 namespace coseg {
@@ -11,18 +12,6 @@ namespace {
 
 /// Above this many pairs a column's Gram matrices take more memory, and in time as much, as products with X.
 constexpr std::size_t largest_gram = 160;
-
-/// Four accumulators in a fixed order: fast without leave to reorder, and the same bits at any alignment. Inlined for
-/// the callers' vectors.
-__attribute__((always_inline)) inline double inner(const double* x, const double* y, int n) noexcept {
-    double sum[4] = {0.0, 0.0, 0.0, 0.0};
-    int k = 0;
-    for (; k + 4 <= n; k += 4) {
-        for (int l = 0; l < 4; ++l) sum[l] += x[k + l] * y[k + l];
-    }
-    for (; k < n; ++k) sum[0] += x[k] * y[k];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
 
 const double* column_of(const FeatureStack& stack, int i) {
     return stack.columns.data() + static_cast<std::int64_t>(i) * stack.dimension;
@@ -73,7 +62,7 @@ void feature_products(const FeatureStack& stack, int row, const double* y, doubl
     const double* x = column_of(stack, row);
     for (std::size_t h = 0; h < static_cast<std::size_t>(stack.features); ++h) {
         const int begin = stack.offset[h];
-        products[h] = inner(x + begin, y + begin, stack.offset[h + 1] - begin);
+        products[h] = inner_product(x + begin, y + begin, stack.offset[h + 1] - begin);
     }
 }
 
