@@ -58,9 +58,6 @@ SparseCoefficients side_by_side(const std::vector<SparseCoefficients>& features)
     return all;
 }
 
-/// The worse of two: a limit before rounding before the gap.
-StopReason worse(StopReason a, StopReason b) { return std::max(a, b); }
-
 SolveResult solve_independent(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options) {
     SolveResult sum;
     std::vector<SparseCoefficients> coefficients;
@@ -74,7 +71,7 @@ SolveResult solve_independent(const Comm& comm, const SubspaceProblem& problem, 
         sum.iterations += one.iterations;
         sum.passes += one.passes;
         sum.working_pairs += one.working_pairs;
-        sum.reason = worse(sum.reason, one.reason);
+        sum.reason = std::max(sum.reason, one.reason);
         coefficients.push_back(std::move(one.coefficients));
         histories.push_back(std::move(one.history));
     }

@@ -185,16 +185,18 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
     progress.row_sums = model.row_sums();
 }
 
-/// What a pass has found, as a row of the history. Collective.
-void record(const Comm& comm, StoppingRule& rule, const Progress& progress, const PassFindings& findings,
+/// Counts a pass, and makes what it has found a row of the history. Returns whether the gap is small enough. Collective.
+bool record(const Comm& comm, StoppingRule& rule, const Progress& progress, const PassFindings& findings,
             const WorkingSet& working, SolveResult& result) {
-    rule.certify(progress.objective, findings.lower_bound);
+    ++result.passes;
+    const bool reached = rule.certify(progress.objective, findings.lower_bound);
     append_row(result.history, {.pass = result.passes,
                                 .iterations = result.iterations,
                                 .objective = progress.objective,
                                 .lower_bound = rule.lower_bound(),
                                 .relative_gap = rule.relative_gap(),
                                 .working_pairs = all_sum(comm, working.pair_count())});
+    return reached;
 }
 
 /// Takes up an iterate that a journal has kept. A finished one leaves nothing to do.
@@ -271,11 +273,11 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
     std::optional<SolveIterate> known =
         journal != nullptr ? journal->find_iterate() : std::optional<SolveIterate>();
     const bool was_finished = known && known->finished;
-    if (!known) result.passes = 1;
     PassFindings findings =
         known ? resume(stack, *known, working, prices, rule, progress, result) : pass.first(working);
-    if (!known) record(comm, rule, progress, findings, working, result);
-    while (!rule.certify(progress.objective, findings.lower_bound) && !progress.limited) {
+    bool reached = known ? rule.certify(progress.objective, findings.lower_bound)
+                         : record(comm, rule, progress, findings, working, result);
+    while (!reached && !progress.limited) {
         const bool goes_on =
             known || prepare_solve(stack, findings, options, result.passes, rule, working, progress);
         if (!goes_on) break;
@@ -284,8 +286,7 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
         known.reset();
         if (progress.stopped) break;
         findings = pass.run(working, progress.row_sums);
-        ++result.passes;
-        record(comm, rule, progress, findings, working, result);
+        reached = record(comm, rule, progress, findings, working, result);
     }
     if (journal != nullptr) close_journal(*journal, working, prices, rule, progress, result, was_finished);
     result.pass_cost = pass.cost();
