@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solvers/coefficients.hpp"
+#include "solvers/tile_sums.hpp"
 
 namespace coseg {
 
@@ -77,23 +77,17 @@ void PaperDualBound::repair(int c, int i, double norm) {
 }
 
 void PaperDualBound::end_tile() {
-    double squares = 0.0;
-    double shifted = 0.0;
     const double* z = reconstruction_;
-    for (int c = 0; c < width_; ++c) {
+    add_by_tiles<2>(width_, reconstruction_sum, sums_, [&](std::int64_t c, double* tile) {
         for (int h = 0; h < stack_.features; ++h) {
             const double half =
                 0.5 * shift_[static_cast<std::size_t>(c * stack_.features + h)] * (1.0 + 4.0 * epsilon);
             for (int k = 0; k < stack_.rows_of(h); ++k, ++z) {
-                squares += *z * *z;
-                shifted += (*z + half) * (*z + half);
+                tile[reconstruction_sum] += *z * *z;
+                tile[shifted_sum] += (*z + half) * (*z + half);
             }
         }
-        if ((c + 1) % coefficient_tile != 0 && c + 1 != width_) continue;
-        sums_.add_scalar(reconstruction_sum, squares);
-        sums_.add_scalar(shifted_sum, shifted);
-        squares = shifted = 0.0;
-    }
+    });
 }
 
 double PaperDualBound::raised_cost(const Comm& comm) {

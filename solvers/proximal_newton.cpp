@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
 
-#include "solvers/coefficients.hpp"
+#include "solvers/tile_sums.hpp"
 
 namespace coseg {
 
@@ -41,35 +42,24 @@ void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double
         apply_gram(stack_, fits_[c], vector.data() + offset_[c], product.data() + offset_[c]);
 }
 
-/// by_row_ becomes W; the penalties are added up tile by tile of rows.
+/// by_row_ becomes W; the penalties are added up.
 void ProximalNewton::shrink_rows(double reach, std::vector<double>& prices) {
     const auto features = static_cast<std::size_t>(stack_.features);
     std::vector<double> row_sums(features);
-    double tile_penalty = 0.0;
-    const std::int64_t rows = exchange_.owned_rows().size();
-    for (std::int64_t r = 0; r < rows; ++r) {
-        const std::size_t begin = exchange_.row_begin(r) * features;
-        const std::span<double> row =
-            std::span(by_row_).subspan(begin, exchange_.row_begin(r + 1) * features - begin);
+    add_by_tiles<1>(exchange_.owned_rows().size(), value, sums_, [&](std::int64_t r, double* tile) {
+        const std::span<double> row = exchange_.row(by_row_, r);
         prox_.shrink(row, reach, std::span(prices).subspan(static_cast<std::size_t>(r) * features, features));
-        tile_penalty += prox_.penalty(row, row_sums);
-        if ((r + 1) % coefficient_tile == 0 || r + 1 == rows) {
-            sums_.add_scalar(value, tile_penalty);
-            tile_penalty = 0.0;
-        }
-    }
+        tile[0] += prox_.penalty(row, row_sums);
+    });
 }
 
-/// Calls add(at, sums) for every value of every column, sums[k] being those of a coefficient tile: one addend of the k-th
-/// scalar, so that bits do not depend on the ranks.
+/// Calls add(at, sums) for every value of every column, sums[k] being of the k-th scalar.
 template <class Add>
-void ProximalNewton::sum_by_tiles(Add&& add) {
-    double tile[scalar_count] = {};
-    for (std::size_t c = 0; c < fits_.size(); ++c) {
-        for (std::size_t at = offset_[c]; at < offset_[c + 1]; ++at) add(at, tile);
-        if ((c + 1) % coefficient_tile != 0 && c + 1 != fits_.size()) continue;
-        for (std::size_t k = 0; k < scalar_count; ++k) sums_.add_scalar(k, std::exchange(tile[k], 0.0));
-    }
+void ProximalNewton::sum_values(Add&& add) {
+    add_by_tiles<scalar_count>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
+        const auto column = static_cast<std::size_t>(c);
+        for (std::size_t at = offset_[column]; at < offset_[column + 1]; ++at) add(at, tile);
+    });
     sums_.reduce(comm_);
 }
 
@@ -83,7 +73,7 @@ void ProximalNewton::evaluate(Point& point, const std::vector<double>& centre, d
     sums_.clear();
     shrink_rows(reach, prices);
     exchange_.to_columns(by_row_, point.weights);
-    sum_by_tiles([&](std::size_t at, double* tile) {
+    sum_values([&](std::size_t at, double* tile) {
         const double weight = point.weights[at];
         const double change = weight - centre[at];
         tile[value] += 2.0 * (point.dual_product[at] - linear_[at]) * weight -
@@ -99,7 +89,7 @@ void ProximalNewton::evaluate(Point& point, const std::vector<double>& centre, d
 void ProximalNewton::differentiate(Point& point) {
     apply(point.weights, point.product);
     sums_.clear();
-    sum_by_tiles([&](std::size_t at, double* tile) {
+    sum_values([&](std::size_t at, double* tile) {
         tile[gradient2] +=
             (point.product[at] - point.dual_product[at]) * (point.weights[at] - point.dual[at]);
     });
@@ -117,7 +107,7 @@ double ProximalNewton::find_direction(double reach) {
         direction_[at] = current_.weights[at] + change[at] - current_.dual[at];
     apply(direction_, direction_product_);
     sums_.clear();
-    sum_by_tiles([&](std::size_t at, double* tile) {
+    sum_values([&](std::size_t at, double* tile) {
         tile[value] += 2.0 * (current_.product[at] - current_.dual_product[at]) * direction_[at];
     });
     return sums_.scalar(value);

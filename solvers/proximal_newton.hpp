@@ -57,7 +57,7 @@ class ProximalNewton {
     void shrink_rows(double reach, std::vector<double>& prices);
     void differentiate(Point& point);
     template <class Add>
-    void sum_by_tiles(Add&& add);
+    void sum_values(Add&& add);
     double find_direction(double reach);
     bool step_along_direction(const std::vector<double>& centre, double reach, double slope,
                               std::vector<double>& prices);

@@ -18,10 +18,12 @@ class RowExchange {
     RowExchange(const Comm& comm, std::int64_t size, int features, const std::vector<int>& rows);
 
     [[nodiscard]] BlockRange owned_rows() const noexcept { return owned_; }
-    /// The pairs of owned row r (counted from owned_rows().begin) are row_begin(r) .. row_begin(r + 1) of
-    /// what to_rows gives, ascending in their columns.
-    [[nodiscard]] std::size_t row_begin(std::int64_t r) const {
-        return row_begin_[static_cast<std::size_t>(r)];
+    /// The values of owned row r (counted from owned_rows().begin) in what to_rows gives, H a pair, ascending in their
+    /// columns.
+    [[nodiscard]] std::span<double> row(std::vector<double>& by_row, std::int64_t r) const {
+        const std::size_t begin = row_begin_[static_cast<std::size_t>(r)] * features_;
+        const std::size_t end = row_begin_[static_cast<std::size_t>(r) + 1] * features_;
+        return std::span(by_row).subspan(begin, end - begin);
     }
 
     /// By columns -> by rows, and back. Collective.

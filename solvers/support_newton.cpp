@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
-#include "solvers/coefficients.hpp"
+#include "solvers/tile_sums.hpp"
 
 namespace coseg {
 
@@ -38,12 +40,10 @@ void SupportNewton::sum_along_rows(const std::vector<double>& vector) {
     exchange_.to_rows(vector, by_row_);
     std::vector<double> sums(features);
     for (std::int64_t r = 0; r < exchange_.owned_rows().size(); ++r) {
-        const std::size_t begin = exchange_.row_begin(r) * features;
-        const std::size_t end = exchange_.row_begin(r + 1) * features;
+        const std::span<double> row = exchange_.row(by_row_, r);
         std::fill(sums.begin(), sums.end(), 0.0);
-        for (std::size_t at = begin; at < end; ++at) sums[(at - begin) % features] += by_row_[at];
-        for (std::size_t at = begin; at < end; ++at)
-            by_row_[at] = 2.0 * problem_.lambda * sums[(at - begin) % features];
+        for (std::size_t at = 0; at < row.size(); ++at) sums[at % features] += row[at];
+        for (std::size_t at = 0; at < row.size(); ++at) row[at] = 2.0 * problem_.lambda * sums[at % features];
     }
     exchange_.to_columns(by_row_, row_part_);
 }
@@ -171,16 +171,13 @@ void SupportNewton::precondition(const std::vector<double>& vector, std::vector<
     }
 }
 
-/// A coefficient tile is one addend, so that bits do not depend on the ranks. Collective.
+/// Collective.
 double SupportNewton::inner(const std::vector<double>& a, const std::vector<double>& b) {
     sums_.clear();
-    double tile = 0.0;
-    for (std::size_t c = 0; c < fits_.size(); ++c) {
-        for (std::size_t at = offset_[c]; at < offset_[c + 1]; ++at) tile += a[at] * b[at];
-        if ((c + 1) % coefficient_tile != 0 && c + 1 != fits_.size()) continue;
-        sums_.add_scalar(0, tile);
-        tile = 0.0;
-    }
+    add_by_tiles<1>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
+        const auto column = static_cast<std::size_t>(c);
+        for (std::size_t at = offset_[column]; at < offset_[column + 1]; ++at) tile[0] += a[at] * b[at];
+    });
     sums_.reduce(comm_);
     return sums_.scalar(0);
 }

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "solvers/coefficients.hpp"
 #include "solvers/dual_bound.hpp"
+#include "solvers/tile_sums.hpp"
 
 namespace coseg {
 
 namespace {
 
-enum Scalar : std::size_t { fit, penalty, distance2, curvature, scalar_count };
+enum Scalar : std::size_t { fit, distance2, curvature, penalty, scalar_count };
 
 std::vector<int> all_rows(const WorkingSet& working) {
     std::vector<int> rows;
@@ -73,46 +74,32 @@ std::optional<int> WorkingSetModel::proximal_step(double reach) {
     return point.reached ? std::optional(point.newton_steps) : std::nullopt;
 }
 
-/// From forward_ to the trial's weights; the penalties are added up tile by tile of rows.
+/// From forward_ to the trial's weights; the penalties are added up.
 void WorkingSetModel::shrink_rows(double step) {
     const auto features = static_cast<std::size_t>(stack_.features);
     sums_.clear();
-    double tile_penalty = 0.0;
-    const std::int64_t rows = exchange_.owned_rows().size();
-    for (std::int64_t r = 0; r < rows; ++r) {
-        const std::size_t begin = exchange_.row_begin(r) * features;
-        const std::size_t end = exchange_.row_begin(r + 1) * features;
-        const std::span<double> row = std::span(by_row_).subspan(begin, end - begin);
+    add_by_tiles<1>(exchange_.owned_rows().size(), penalty, sums_, [&](std::int64_t r, double* tile) {
+        const std::span<double> row = exchange_.row(by_row_, r);
         const std::size_t at = static_cast<std::size_t>(r) * features;
         if (step > 0.0) prox_.shrink(row, step, std::span(prices_).subspan(at, features));
-        tile_penalty += prox_.penalty(row, std::span(trial_.row_sums).subspan(at, features));
-        if ((r + 1) % coefficient_tile == 0 || r + 1 == rows) {
-            sums_.add_scalar(penalty, tile_penalty);
-            tile_penalty = 0.0;
-        }
-    }
+        tile[0] += prox_.penalty(row, std::span(trial_.row_sums).subspan(at, features));
+    });
     exchange_.to_columns(by_row_, trial_.weights);
 }
 
 void WorkingSetModel::measure_columns() {
-    double tile_fit = 0.0, tile_distance2 = 0.0, tile_curvature = 0.0;
-    for (std::size_t c = 0; c < working_.fits.size(); ++c) {
-        apply_gram(stack_, working_.fits[c], trial_.weights.data() + offset_[c],
-                   trial_.product.data() + offset_[c]);
-        for (std::size_t at = offset_[c]; at < offset_[c + 1]; ++at) {
+    add_by_tiles<3>(std::ssize(working_.fits), fit, sums_, [&](std::int64_t c, double* tile) {
+        const auto column = static_cast<std::size_t>(c);
+        apply_gram(stack_, working_.fits[column], trial_.weights.data() + offset_[column],
+                   trial_.product.data() + offset_[column]);
+        for (std::size_t at = offset_[column]; at < offset_[column + 1]; ++at) {
             const double weight = trial_.weights[at];
             const double change = weight - current_.weights[at];
-            tile_fit += weight * (trial_.product[at] - 2.0 * linear_[at]);
-            tile_distance2 += change * change;
-            tile_curvature += 2.0 * change * (trial_.product[at] - current_.product[at]);
+            tile[fit] += weight * (trial_.product[at] - 2.0 * linear_[at]);
+            tile[distance2] += change * change;
+            tile[curvature] += 2.0 * change * (trial_.product[at] - current_.product[at]);
         }
-        if ((c + 1) % coefficient_tile == 0 || c + 1 == working_.fits.size()) {
-            sums_.add_scalar(fit, tile_fit);
-            sums_.add_scalar(distance2, tile_distance2);
-            sums_.add_scalar(curvature, tile_curvature);
-            tile_fit = tile_distance2 = tile_curvature = 0.0;
-        }
-    }
+    });
 }
 
 TrialPoint WorkingSetModel::finish_trial() {
