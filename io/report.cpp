@@ -100,13 +100,11 @@ Json of_partition(const Report& report) {
     for (const ReportStart& s : report.starts) {
         starts.push_back({{"adjacency", s.adjacency},
                           {"clusters", s.clusters},
-                          {"merging", s.merging},
                           {"score", s.score},
                           {"concavity", s.concavity},
                           {"presence", s.presence},
                           {"recall", s.recall},
-                          {"explained_common", s.explained_common},
-                          {"explained_own", s.explained_own}});
+                          {"explained", s.explained}});
     }
     return {{"eigenvalues", report.eigenvalues},
             {"starts", starts},

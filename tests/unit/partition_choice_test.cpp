@@ -20,35 +20,34 @@ TEST(PartitionChoice, SharesAreMeansOverMeshesOfAnySize) {
     EXPECT_DOUBLE_EQ(shares[1], 0.5 * (0.75 + 0.5));
 }
 
-PartitionTerms terms_with(double crease, double overlap = 0.0) {
+PartitionTerms terms_with(double association, double crease = 0.0, double overlap = 0.0) {
     PartitionTerms terms;
+    terms.association = association;
     terms.crease = crease;
     terms.overlap = overlap;
     return terms;
 }
 
 TEST(PartitionChoice, ScoresAreStandardisedTermByTerm) {
-    const std::vector<PartitionTerms> terms = {terms_with(1.0, 5.0), terms_with(3.0, 5.0)};
-    const std::vector<double> scores = partition_scores(terms, {.crease = 2.0, .overlap = 10.0}, {});
+    const std::vector<PartitionTerms> terms = {terms_with(1.0, 0.2, 5.0), terms_with(3.0, 0.2, 5.0)};
+    const std::vector<double> scores =
+        partition_scores(terms, {.association = 2.0, .crease = 10.0, .overlap = 10.0}, {});
     EXPECT_NEAR(scores[0], -2.0,
                 1e-14);  // one deviation below the mean, times 2; what does not vary has no say
     EXPECT_NEAR(scores[1], 2.0, 1e-14);
 }
 
 TEST(PartitionChoice, ScoresDoNotDependOnTheUnitOfATerm) {
-    std::vector<PartitionTerms> terms = {terms_with(0.2, 1.5), terms_with(0.9, 1.0), terms_with(0.4, 1.2)};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double share = 0.1 + 0.2 * static_cast<double>(k * k);
-        terms[k].explained = {{.common = share, .own = 0.5 + 0.5 * share}};
-    }
+    std::vector<PartitionTerms> terms = {terms_with(1.0, 0.2, 1.5), terms_with(3.0, 0.9, 1.0),
+                                         terms_with(2.5, 0.4, 1.2)};
+    for (std::size_t k = 0; k < 3; ++k) terms[k].explained = {0.1 + 0.2 * static_cast<double>(k * k)};
     std::vector<PartitionTerms> scaled = terms;
     for (PartitionTerms& t : scaled) {
-        t.overlap = 1e3 * t.overlap + 7.0;
+        t.association = 1e3 * t.association + 7.0;
         t.crease *= 1e-6;
-        t.explained[0].common *= 1e-3;
-        t.explained[0].own -= 0.25;
+        t.explained[0] *= 1e-3;
     }
-    const std::vector<ExplainedSpread> weights = {{.common = 1.5, .own = 0.5}};
+    const std::vector<double> weights = {2.0};
     const std::vector<double> a = partition_scores(terms, {}, weights);
     const std::vector<double> b = partition_scores(scaled, {}, weights);
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-9);
@@ -110,22 +109,16 @@ TEST(PartitionChoice, OverlapAgreementIsTheShareOfTheOwnPartByArea) {
     EXPECT_EQ(overlap_agreement({}, {0, 1}, {1.0, 1.0}), 1.0);
 }
 
-TEST(PartitionChoice, PartsThatAreAlikeInsideExplainAllAndPartsWithOneMeanNothing) {
+TEST(PartitionChoice, ExplainedShareIsOneForPartsThatAreAlikeInsideAndZeroForPartsWithOneMean) {
     Eigen::MatrixXf histograms(2, 4);
     histograms << 1, 1, 0, 0, 0, 0, 1, 1;
-    const std::vector<int> one_mesh(4, 0);
     const std::vector<double> area = {1.0, 2.0, 3.0, 4.0};
-    const ExplainedSpread all = explained_spread(histograms, {0, 0, 1, 1}, 2, area, one_mesh);
-    EXPECT_NEAR(all.common, 1.0, 1e-15);
-    EXPECT_NEAR(all.own, 1.0, 1e-15);
-    const ExplainedSpread nothing = explained_spread(histograms, {0, 1, 0, 1}, 2, {1, 1, 1, 1}, one_mesh);
-    EXPECT_NEAR(nothing.common, 0.0, 1e-15);
-    EXPECT_NEAR(nothing.own, 0.0, 1e-15);
-    EXPECT_EQ(explained_spread(Eigen::MatrixXf::Ones(2, 4), {0, 1, 0, 1}, 2, area, one_mesh),
-              ExplainedSpread{});
+    EXPECT_NEAR(explained_share(histograms, {0, 0, 1, 1}, 2, area), 1.0, 1e-15);
+    EXPECT_NEAR(explained_share(histograms, {0, 1, 0, 1}, 2, {1.0, 1.0, 1.0, 1.0}), 0.0, 1e-15);
+    EXPECT_EQ(explained_share(Eigen::MatrixXf::Ones(2, 4), {0, 1, 0, 1}, 2, area), 0.0);
 }
 
-TEST(PartitionChoice, InOneMeshTheExplainedSpreadIsThatOfTheAnalysisOfVariance) {
+TEST(PartitionChoice, ExplainedShareIsThatOfTheAnalysisOfVariance) {
     Eigen::MatrixXf values(1, 5);
     values << 1, 2, 4, 7, 11;
     const std::vector<int> labels = {0, 0, 1, 1, 1};
@@ -135,33 +128,7 @@ TEST(PartitionChoice, InOneMeshTheExplainedSpreadIsThatOfTheAnalysisOfVariance) 
     double spread = 0.0;
     for (Eigen::Index i = 0; i < 5; ++i) spread += (values(0, i) - mean) * (values(0, i) - mean);
     const double between = 2.0 * (first - mean) * (first - mean) + 3.0 * (second - mean) * (second - mean);
-    const ExplainedSpread explained =
-        explained_spread(values, labels, 2, std::vector<double>(5, 1.0), std::vector<int>(5, 0));
-    EXPECT_NEAR(explained.common, between / spread, 1e-14);
-    EXPECT_NEAR(explained.own, between / spread, 1e-14);
-}
-
-/// Two meshes of two patches: what tells the patches apart, and what the meshes.
-ExplainedSpread of_two_meshes(float first_a, float first_b, float second_a, float second_b,
-                              const std::vector<int>& labels) {
-    Eigen::MatrixXf values(1, 4);
-    values << first_a, first_b, second_a, second_b;
-    return explained_spread(values, labels, 2, std::vector<double>(4, 1.0), {0, 0, 1, 1});
-}
-
-TEST(PartitionChoice, WhatTellsMeshesApartIsNotExplained) {
-    const ExplainedSpread by_mesh = of_two_meshes(0, 1, 10, 11, {0, 0, 1, 1});
-    EXPECT_NEAR(by_mesh.common, 0.0, 1e-15) << "a partition by style";
-    EXPECT_NEAR(by_mesh.own, 0.0, 1e-15);
-    const ExplainedSpread by_part = of_two_meshes(0, 1, 10, 11, {0, 1, 0, 1});
-    EXPECT_NEAR(by_part.common, 1.0, 1e-15);
-    EXPECT_NEAR(by_part.own, 1.0, 1e-15);
-}
-
-TEST(PartitionChoice, PartsThatDifferTheOtherWayInAnotherMeshAreExplainedByItsOwnMeansOnly) {
-    const ExplainedSpread opposed = of_two_meshes(0, 1, 1, 0, {0, 1, 0, 1});
-    EXPECT_NEAR(opposed.common, 0.0, 1e-15);
-    EXPECT_NEAR(opposed.own, 1.0, 1e-15);
+    EXPECT_NEAR(explained_share(values, labels, 2, std::vector<double>(5, 1.0)), between / spread, 1e-14);
 }
 
 }  // namespace
