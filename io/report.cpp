@@ -100,11 +100,13 @@ Json of_partition(const Report& report) {
     for (const ReportStart& s : report.starts) {
         starts.push_back({{"adjacency", s.adjacency},
                           {"clusters", s.clusters},
+                          {"merging", s.merging},
                           {"score", s.score},
                           {"concavity", s.concavity},
                           {"presence", s.presence},
                           {"recall", s.recall},
-                          {"explained", s.explained}});
+                          {"explained_common", s.explained_common},
+                          {"explained_own", s.explained_own}});
     }
     return {{"eigenvalues", report.eigenvalues},
             {"starts", starts},

@@ -76,11 +76,13 @@ struct ReportOptimisation {
 struct ReportStart {
     double adjacency = 0.0;
     int clusters = 0;
+    std::string merging;  ///< the rule that merged the clusters
     double score = 0.0;
     double concavity = 0.0;
     double presence = 0.0;
     double recall = 0.0;
-    std::vector<double> explained;
+    std::vector<double> explained_common;  ///< per descriptor that the choice looks at
+    std::vector<double> explained_own;
 };
 
 struct ReportStrength {

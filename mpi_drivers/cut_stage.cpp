@@ -51,7 +51,7 @@ CutOptions cut_options(const RunOptions& options) {
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
         const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
-        for (CutStart& start : cut.starts) start.cut = start.merging = weights;
+        for (CutStart& start : cut.starts) start.graph = weights;
     }
     return cut;
 }
@@ -62,14 +62,14 @@ std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, 
     std::vector<ChoiceDescriptor> descriptors;
     if (!options.choose) return descriptors;
     // Those that tell parts from each other in all of the labelled and generated collections; weights fitted on them,
-    // each left out in turn (docs/method.md).
+    // each family left out in turn (docs/method.md).
     for (std::size_t h = 0; h < features.histograms.size(); ++h) {
         const auto feature = static_cast<Feature>(features.feature_of[h]);
-        const auto add = [&](double weight) {
+        const auto add = [&](ExplainedSpread weight) {
             descriptors.push_back({features.histograms[h].cast<float>(), weight});
         };
-        if (feature == Feature::gaussian_curvature) add(1.0);
-        if (feature == Feature::shape_diameter) add(2.1);
+        if (feature == Feature::gaussian_curvature) add({.common = 0.0, .own = 1.4});
+        if (feature == Feature::shape_diameter) add({.common = 1.6, .own = 4.0});
     }
     return descriptors;
 }

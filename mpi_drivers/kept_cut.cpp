@@ -16,7 +16,7 @@ namespace coseg {
 namespace {
 
 constexpr const char* cut_format = "coseg cut";
-constexpr int cut_version = 3;
+constexpr int cut_version = 4;
 
 /// These change where things are, what is said or what is drawn.
 constexpr std::array<const char*, 18> without_effect{
@@ -117,8 +117,8 @@ ContentHash cut_key(const Comm& comm, const Collection& collection, const PatchF
     return hasher.result();
 }
 
-constexpr std::size_t start_numbers = 11;
-constexpr std::size_t start_counts = 6;
+constexpr std::size_t start_numbers = 8;
+constexpr std::size_t start_counts = 7;
 
 void write_starts(Hdf5Writer& file, const std::vector<StartOutcome>& starts) {
     std::vector<double> numbers;
@@ -128,14 +128,14 @@ void write_starts(Hdf5Writer& file, const std::vector<StartOutcome>& starts) {
     for (const StartOutcome& outcome : starts) {
         // One name for each field: a new one does not compile until it has been thought of here.
         const auto& [start, terms, score, parts_found, set_aside, unreached, values] = outcome;
-        const auto& [cut, clusters, merging] = start;
-        const auto& [association, crease, overlap, shares, concavity, present, recall] = terms;
-        numbers.insert(numbers.end(), {cut.adjacency, cut.overlap, merging.adjacency, merging.overlap,
-                                       association, crease, overlap, concavity, present, recall, score});
-        counts.insert(counts.end(), {clusters, parts_found, set_aside, unreached,
+        const auto& [graph, clusters, merging] = start;
+        const auto& [crease, overlap, shares, concavity, present, recall] = terms;
+        numbers.insert(numbers.end(),
+                       {graph.adjacency, graph.overlap, crease, overlap, concavity, present, recall, score});
+        counts.insert(counts.end(), {clusters, static_cast<int>(merging), parts_found, set_aside, unreached,
                                      static_cast<int>(values.size()), static_cast<int>(shares.size())});
         eigenvalues.insert(eigenvalues.end(), values.begin(), values.end());
-        explained.insert(explained.end(), shares.begin(), shares.end());
+        for (const auto& [common, own] : shares) explained.insert(explained.end(), {common, own});
     }
     file.write("starts/numbers", numbers, {starts.size(), start_numbers});
     file.write("starts/counts", counts, {starts.size(), start_counts});
@@ -154,21 +154,24 @@ std::vector<StartOutcome> read_starts(const Hdf5Reader& file) {
     for (std::size_t k = 0; k < starts.size(); ++k) {
         const double* n = numbers.data() + start_numbers * k;
         const std::int32_t* c = counts.data() + start_counts * k;
-        starts[k] = {.start = {{n[0], n[1]}, c[0], {n[2], n[3]}},
-                     .terms = {.association = n[4],
-                               .crease = n[5],
-                               .overlap = n[6],
-                               .explained = {share, share + c[5]},
-                               .concavity = n[7],
-                               .presence = n[8],
-                               .recall = n[9]},
-                     .score = n[10],
-                     .parts_found = c[1],
-                     .set_aside = c[2],
-                     .unreached = c[3],
-                     .eigenvalues = {value, value + c[4]}};
-        value += c[4];
-        share += c[5];
+        std::vector<ExplainedSpread> shares(static_cast<std::size_t>(c[6]));
+        for (ExplainedSpread& spread : shares) {
+            spread.common = *share++;
+            spread.own = *share++;
+        }
+        starts[k] = {.start = {{n[0], n[1]}, c[0], static_cast<MergeRule>(c[1])},
+                     .terms = {.crease = n[2],
+                               .overlap = n[3],
+                               .explained = std::move(shares),
+                               .concavity = n[4],
+                               .presence = n[5],
+                               .recall = n[6]},
+                     .score = n[7],
+                     .parts_found = c[2],
+                     .set_aside = c[3],
+                     .unreached = c[4],
+                     .eigenvalues = {value, value + c[5]}};
+        value += c[5];
     }
     return starts;
 }

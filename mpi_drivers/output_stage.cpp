@@ -98,9 +98,20 @@ void add_strengths(Report& report, const FeatureStrength& strength, const RunOut
 
 void add_partition(Report& report, const CutResult& cut) {
     for (const StartOutcome& start : cut.starts) {
-        report.starts.push_back({start.start.cut.adjacency, start.start.clusters, start.score,
-                                 start.terms.concavity, start.terms.presence, start.terms.recall,
-                                 start.terms.explained});
+        ReportStart row{.adjacency = start.start.graph.adjacency,
+                        .clusters = start.start.clusters,
+                        .merging = start.start.merging == MergeRule::linkage ? "linkage" : "normalized_cut",
+                        .score = start.score,
+                        .concavity = start.terms.concavity,
+                        .presence = start.terms.presence,
+                        .recall = start.terms.recall,
+                        .explained_common = {},
+                        .explained_own = {}};
+        for (const auto& [common, own] : start.terms.explained) {
+            row.explained_common.push_back(common);
+            row.explained_own.push_back(own);
+        }
+        report.starts.push_back(std::move(row));
     }
     report.chosen_start = cut.chosen;
     if (cut.starts.empty()) return;  // one part needs no cut

@@ -1,6 +1,7 @@
 #include "solvers/cluster_merging.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -19,18 +20,25 @@ double loss_of_union(const ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
     return association(c.links(a, a), c.volume(a)) + association(c.links(b, b), c.volume(b)) - together;
 }
 
+/// Minus the links between a and b in units of the geometric mean of their volumes.
+double missing_linkage(const ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
+    const double scale = std::sqrt(c.volume(a) * c.volume(b));
+    return scale > 0.0 ? -c.links(a, b) / scale : 0.0;
+}
+
 void unite(ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
     c.links.row(a) += c.links.row(b).eval();
     c.links.col(a) += c.links.col(b).eval();
     c.volume(a) += c.volume(b);
 }
 
-std::pair<int, int> best_union(const ClusterLinks& links, const std::vector<int>& alive) {
+std::pair<int, int> best_union(const ClusterLinks& links, const std::vector<int>& alive, MergeRule rule) {
+    const auto loss_of = rule == MergeRule::linkage ? missing_linkage : loss_of_union;
     std::pair<int, int> best{alive[0], alive[1]};
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < alive.size(); ++i) {
         for (std::size_t j = i + 1; j < alive.size(); ++j) {
-            const double loss = loss_of_union(links, alive[i], alive[j]);
+            const double loss = loss_of(links, alive[i], alive[j]);
             if (loss < least) {
                 least = loss;
                 best = {alive[i], alive[j]};
@@ -64,13 +72,6 @@ ClusterLinks cluster_links(const Comm& comm, const SparseRows& affinity, const s
     return result;
 }
 
-double normalized_association(const ClusterLinks& links) {
-    double sum = 0.0;
-    for (Eigen::Index a = 0; a < links.volume.size(); ++a)
-        sum += association(links.links(a, a), links.volume(a));
-    return sum;
-}
-
 Eigen::MatrixXd area_shares(const std::vector<int>& labels, int clusters,
                             const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
     const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
@@ -87,7 +88,8 @@ Eigen::MatrixXd area_shares(const std::vector<int>& labels, int clusters,
     return shares;
 }
 
-std::vector<int> merge_clusters(ClusterLinks links, const std::vector<int>& cluster_sizes, int parts) {
+std::vector<int> merge_clusters(ClusterLinks links, const std::vector<int>& cluster_sizes, int parts,
+                                MergeRule rule) {
     std::vector<int> root(cluster_sizes.size(), -1);
     std::vector<int> alive;
     for (std::size_t c = 0; c < cluster_sizes.size(); ++c) {
@@ -96,7 +98,7 @@ std::vector<int> merge_clusters(ClusterLinks links, const std::vector<int>& clus
         alive.push_back(static_cast<int>(c));
     }
     while (static_cast<int>(alive.size()) > parts) {
-        const auto [a, b] = best_union(links, alive);
+        const auto [a, b] = best_union(links, alive, rule);
         unite(links, a, b);
         std::replace(root.begin(), root.end(), b, a);
         std::erase(alive, b);

@@ -113,61 +113,80 @@ struct GraphCut {
     const CutOptions& options;
     const CutTerms& terms;
     const SparseRows& graph;
-    const SparseRows& scoring;
     const SpectralEmbedding& embedding;
 };
 
-/// Clusters of a start for every patch, those set aside included.
-std::vector<int> start_clusters(const GraphCut& cut, int clusters, StartOutcome& outcome) {
-    std::vector<int> labels = cut_embedding(cut.embedding, clusters, cut.graph.size);
-    const std::vector<int> sizes = cluster_sizes(labels, clusters);
+/// What starts with the same graph and number of clusters share.
+struct Clustering {
+    int count = 0;
+    std::vector<int> labels;  ///< of every patch, those set aside included
+    std::vector<int> sizes;
+    ClusterLinks links;
+    int set_aside = 0;
+    int unreached = 0;
+};
+
+Clustering clustering_of(const GraphCut& cut, int count) {
+    Clustering result;
+    result.count = count;
+    result.labels = cut_embedding(cut.embedding, count, cut.graph.size);
+    const std::vector<int> sizes = cluster_sizes(result.labels, count);
     const auto largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-    outcome.set_aside = static_cast<int>(std::count(labels.begin(), labels.end(), -1));
-    outcome.unreached = attach_set_aside(labels, cut.terms.bonds, largest);
-    return labels;
+    result.set_aside = static_cast<int>(std::count(result.labels.begin(), result.labels.end(), -1));
+    result.unreached = attach_set_aside(result.labels, cut.terms.bonds, largest);
+    result.sizes = cluster_sizes(result.labels, count);
+    result.links = cluster_links(cut.group, cut.graph, result.labels, count);
+    return result;
 }
 
 PartitionTerms terms_of(const GraphCut& cut, const std::vector<int>& labels, int parts) {
     const CutInput& input = cut.input;
     const Eigen::MatrixXd shares = area_shares(labels, parts, input.patch_area, input.mesh_of);
     PartitionTerms terms;
-    terms.association = normalized_association(cluster_links(cut.group, cut.scoring, labels, parts));
     terms.crease = boundary_crease(cut.terms.neighbors, labels, static_cast<int>(shares.cols()));
     terms.overlap = overlap_agreement(cut.terms.overlaps, labels, input.patch_area);
     for (const ChoiceDescriptor& d : input.descriptors)
-        terms.explained.push_back(explained_share(d.histograms, labels, parts, input.patch_area));
+        terms.explained.push_back(
+            explained_spread(d.histograms, labels, parts, input.patch_area, input.mesh_of));
     terms.concavity = boundary_concavity(cut.terms.neighbors, labels);
     terms.presence = presence(shares);
     terms.recall = match_recall(cut.group, cut.terms.base, labels, parts, input.patch_area);
     return terms;
 }
 
-/// The part of each cluster of a start.
-std::vector<int> merged_clusters(const GraphCut& cut, const CutStart& start, const std::vector<int>& labels,
-                                 int clusters) {
-    const bool same_graph = start.merging == start.cut;
-    const SparseRows other = same_graph ? SparseRows{} : graph_of(cut.terms, start.merging, 0.0);
-    return merge_clusters(cluster_links(cut.group, same_graph ? cut.graph : other, labels, clusters),
-                          cluster_sizes(labels, clusters), cut.options.parts);
+int cluster_count(const GraphCut& cut, int index) {
+    const int asked = cut.options.starts[static_cast<std::size_t>(index)].clusters;
+    return std::min(asked, static_cast<int>(cut.embedding.eigenvalues.size()));
 }
 
-LabelledOutcome run_start(const GraphCut& cut, int index) {
+/// The outcome of a start but for its terms.
+LabelledOutcome run_start(const GraphCut& cut, int index, const Clustering& clusters) {
     const CutStart& start = cut.options.starts[static_cast<std::size_t>(index)];
-    const int clusters = std::min(start.clusters, static_cast<int>(cut.embedding.eigenvalues.size()));
     LabelledOutcome result;
     result.index = index;
     result.outcome.start = start;
+    result.outcome.set_aside = clusters.set_aside;
+    result.outcome.unreached = clusters.unreached;
     result.outcome.eigenvalues.assign(cut.embedding.eigenvalues.begin(),
-                                      cut.embedding.eigenvalues.begin() + clusters);
-    result.labels = start_clusters(cut, clusters, result.outcome);
-    const std::vector<int> part_of_cluster = merged_clusters(cut, start, result.labels, clusters);
-    for (int& label : result.labels) label = part_of_cluster[static_cast<std::size_t>(label)];
+                                      cut.embedding.eigenvalues.begin() + clusters.count);
+    const std::vector<int> part_of_cluster =
+        merge_clusters(clusters.links, clusters.sizes, cut.options.parts, start.merging);
+    for (const int cluster : clusters.labels)
+        result.labels.push_back(part_of_cluster[static_cast<std::size_t>(cluster)]);
     result.outcome.parts_found = 1 + *std::max_element(result.labels.begin(), result.labels.end());
     // Numbered alike, partitions that are the same have the same terms to the last bit.
     result.labels =
         canonical_labels(result.labels, cut.options.parts, cut.input.patch_area, cut.input.mesh_of);
-    result.outcome.terms = terms_of(cut, result.labels, cut.options.parts);
     return result;
+}
+
+/// Starts of one graph often end in the same partition, whose terms are then found once.
+void add_terms(const GraphCut& cut, const std::vector<LabelledOutcome>& earlier, LabelledOutcome& result) {
+    const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const LabelledOutcome& other) {
+        return other.labels == result.labels;
+    });
+    result.outcome.terms =
+        same != earlier.end() ? same->outcome.terms : terms_of(cut, result.labels, cut.options.parts);
 }
 
 /// The starts that share a graph, in the order of their first.
@@ -175,7 +194,7 @@ std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& start
     std::vector<std::vector<int>> groups;
     for (std::size_t k = 0; k < starts.size(); ++k) {
         const auto same = std::find_if(groups.begin(), groups.end(), [&](const std::vector<int>& group) {
-            return starts[static_cast<std::size_t>(group.front())].cut == starts[k].cut;
+            return starts[static_cast<std::size_t>(group.front())].graph == starts[k].graph;
         });
         if (same == groups.end()) {
             groups.push_back({static_cast<int>(k)});
@@ -187,36 +206,42 @@ std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& start
 }
 
 std::vector<LabelledOutcome> run_graph(const Comm& group, const CutInput& input, const CutOptions& options,
-                                       const CutTerms& terms, const SparseRows& scoring,
-                                       const std::vector<int>& starts) {
+                                       const CutTerms& terms, const std::vector<int>& starts) {
     const CutStart& first = options.starts[static_cast<std::size_t>(starts.front())];
-    const SparseRows graph = graph_of(terms, first.cut, options.drop_below);
+    const SparseRows graph = graph_of(terms, first.graph, options.drop_below);
     int count = options.parts;
     for (const int k : starts) count = std::max(count, options.starts[static_cast<std::size_t>(k)].clusters);
     const SpectralEmbedding embedding =
         spectral_embedding(group, graph, options.parts, count, options.spectral, input.mesh_of);
-    const GraphCut cut{group, input, options, terms, graph, scoring, embedding};
+    const GraphCut cut{group, input, options, terms, graph, embedding};
     std::vector<LabelledOutcome> outcomes;
-    for (const int k : starts) outcomes.push_back(run_start(cut, k));
+    Clustering clusters;
+    for (const int k : starts) {
+        const int wanted = cluster_count(cut, k);
+        if (clusters.count != wanted) clusters = clustering_of(cut, wanted);
+        LabelledOutcome result = run_start(cut, k, clusters);
+        add_terms(cut, outcomes, result);
+        outcomes.push_back(std::move(result));
+    }
     return outcomes;
 }
 
 void append_terms(const PartitionTerms& terms, std::vector<double>& values) {
-    values.insert(values.end(), {terms.association, terms.crease, terms.overlap, terms.concavity,
-                                 terms.presence, terms.recall});
-    values.insert(values.end(), terms.explained.begin(), terms.explained.end());
+    values.insert(values.end(), {terms.crease, terms.overlap, terms.concavity, terms.presence, terms.recall});
+    for (const ExplainedSpread& e : terms.explained) values.insert(values.end(), {e.common, e.own});
 }
 
 /// The inverse of append_terms; moves `value` on.
 PartitionTerms next_terms(std::vector<double>::const_iterator& value, std::size_t descriptors) {
     PartitionTerms terms;
-    for (double* term : {&terms.association, &terms.crease, &terms.overlap, &terms.concavity, &terms.presence,
-                         &terms.recall}) {
+    for (double* term : {&terms.crease, &terms.overlap, &terms.concavity, &terms.presence, &terms.recall}) {
         *term = *value++;
     }
-    const auto end = value + static_cast<std::ptrdiff_t>(descriptors);
-    terms.explained.assign(value, end);
-    value = end;
+    terms.explained.resize(descriptors);
+    for (ExplainedSpread& e : terms.explained) {
+        e.common = *value++;
+        e.own = *value++;
+    }
     return terms;
 }
 
@@ -262,10 +287,9 @@ std::vector<LabelledOutcome> run_dealt(const Comm& comm, const Comm& self, const
     const std::vector<std::vector<int>> graphs = starts_by_graph(options.starts);
     std::vector<LabelledOutcome> mine;
     agree(comm, [&] {
-        const SparseRows scoring = graph_of(terms, {options.score_weight, options.score_weight}, 0.0);
         for (auto q = static_cast<std::size_t>(comm.rank()); q < graphs.size();
              q += static_cast<std::size_t>(comm.size())) {
-            for (LabelledOutcome& r : run_graph(self, input, options, terms, scoring, graphs[q])) {
+            for (LabelledOutcome& r : run_graph(self, input, options, terms, graphs[q])) {
                 mine.push_back(std::move(r));
             }
         }
@@ -276,10 +300,9 @@ std::vector<LabelledOutcome> run_dealt(const Comm& comm, const Comm& self, const
 /// One graph after the other, each cut by all ranks. Collective.
 std::vector<LabelledOutcome> run_together(const Comm& comm, const CutInput& input, const CutOptions& options,
                                           const CutTerms& terms) {
-    const SparseRows scoring = graph_of(terms, {options.score_weight, options.score_weight}, 0.0);
     std::vector<LabelledOutcome> all(options.starts.size());
     for (const std::vector<int>& starts : starts_by_graph(options.starts)) {
-        for (LabelledOutcome& r : run_graph(comm, input, options, terms, scoring, starts)) {
+        for (LabelledOutcome& r : run_graph(comm, input, options, terms, starts)) {
             all[static_cast<std::size_t>(r.index)] = std::move(r);
         }
     }
@@ -295,7 +318,7 @@ std::size_t choose(std::vector<LabelledOutcome>& outcomes, const CutInput& input
         terms.push_back(r.outcome.terms);
         most = std::max(most, r.outcome.parts_found);
     }
-    std::vector<double> descriptor_weights;
+    std::vector<ExplainedSpread> descriptor_weights;
     for (const ChoiceDescriptor& d : input.descriptors) descriptor_weights.push_back(d.weight);
     const std::vector<double> scores = partition_scores(terms, weights, descriptor_weights);
     std::vector<bool> eligible;
@@ -341,7 +364,10 @@ std::vector<CutStart> pooled_starts(int parts) {
     std::vector<CutStart> starts;
     for (const double weight : {1.0, 2.0, 4.0, 8.0}) {
         const GraphWeights graph{weight, weight};
-        for (const int count : clusters) starts.push_back({graph, count, graph});
+        for (const int count : clusters) {
+            starts.push_back({graph, count, MergeRule::normalized_cut});
+            if (count > parts) starts.push_back({graph, count, MergeRule::linkage});
+        }
     }
     return starts;
 }
@@ -351,14 +377,14 @@ std::vector<CutStart> articulated_starts(int parts) {
     std::vector<CutStart> starts;
     for (const int count : cluster_counts(parts)) {
         if (count == parts) continue;
-        starts.push_back({without_adjacency, count, without_adjacency});
+        starts.push_back({without_adjacency, count, MergeRule::normalized_cut});
     }
     return starts;
 }
 
 std::vector<CutStart> single_start(int parts, double adjacency) {
     const GraphWeights graph{adjacency, adjacency};
-    return {{graph, parts, graph}};
+    return {{graph, parts, MergeRule::normalized_cut}};
 }
 
 CutResult described_partition(const std::vector<int>& labels, int parts, const std::vector<int>& mesh_of,

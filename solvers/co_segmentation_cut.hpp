@@ -28,20 +28,18 @@ struct GraphWeights {
     friend bool operator==(const GraphWeights&, const GraphWeights&) = default;
 };
 
-/// One attempt: the graph `cut` is cut into `clusters`, these are merged into the parts by the normalised cut of
-/// the graph `merging`.
+/// One attempt: the graph is cut into `clusters`, these are merged into the parts by their links in it.
 struct CutStart {
-    GraphWeights cut;
+    GraphWeights graph;
     int clusters = 2;
-    GraphWeights merging;
+    MergeRule merging = MergeRule::normalized_cut;
 };
 
-/// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 5K/2, 3K}, merged by the normalised cut of
-/// the same graph.
+/// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 5K/2, 3K}, more than K merged by both rules.
 std::vector<CutStart> pooled_starts(int parts);
 
-/// Without adjacency (overlap 1), clusters in {K+1, K+2, 2K, 5K/2, 3K}, merged by the normalised cut of the same graph: for
-/// shapes with many limbs, where adjacency in the cut does harm.
+/// Without adjacency (overlap 1), clusters in {K+1, K+2, 2K, 5K/2, 3K}, merged by the normalised cut: for shapes with
+/// many limbs, where adjacency in the cut does harm.
 std::vector<CutStart> articulated_starts(int parts);
 
 /// One cut into the parts, adjacency = overlap; 0 with AffinityForm::paper is the paper's text.
@@ -64,7 +62,6 @@ struct CutOptions {
     double drop_below = 0.0;       ///< entries of S below are dropped; the paper's code: 1e-6
     SpectralOptions spectral;      ///< the paper's code: offset 0.5
     std::vector<CutStart> starts;  ///< at least one
-    double score_weight = 1.5;     ///< adjacency and overlap of the graph that scores
     ChoiceWeights choice;
     /// Up to so many entries of the base affinity a start is one rank's work, which takes about 100 bytes an entry.
     std::int64_t one_rank_entries = 60'000'000;

@@ -33,8 +33,8 @@ void add_standardised(std::span<const double> values, double weight, double leas
     const Spread spread = spread_of(values);
     // Partitions that agree but for rounding have no say: a deviation of 1e-15 would turn noise into a score.
     const double rounding = 1e-12 * std::max(1.0, std::abs(spread.mean));
+    if (spread.deviation <= rounding) return;
     const double deviation = std::max(spread.deviation, least);
-    if (deviation <= rounding) return;
     for (std::size_t k = 0; k < scores.size(); ++k)
         scores[k] += weight * ((values[k] - spread.mean) / deviation);
 }
@@ -70,6 +70,27 @@ std::vector<std::size_t> short_list(std::span<const double> scores, const std::v
 
 /// Share of the deviation over all partitions below which differences inside the short list are not magnified.
 constexpr double least_share = 0.15;
+
+/// Histograms weighted by area and summed over the patches of each part in each mesh.
+struct HistogramSums {
+    Eigen::MatrixXd histograms;  ///< bins x (parts * meshes): column mesh * parts + part
+    Eigen::MatrixXd area;        ///< parts x meshes
+    double squares = 0.0;        ///< sum over patches of area |x|^2
+};
+
+HistogramSums sums_of_parts(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
+                            const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
+    const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
+    HistogramSums sums{Eigen::MatrixXd::Zero(histograms.rows(), Eigen::Index{parts} * meshes),
+                       Eigen::MatrixXd::Zero(parts, meshes)};
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const auto x = histograms.col(static_cast<Eigen::Index>(i)).cast<double>();
+        sums.histograms.col(Eigen::Index{mesh_of[i]} * parts + labels[i]) += patch_area[i] * x;
+        sums.area(labels[i], mesh_of[i]) += patch_area[i];
+        sums.squares += patch_area[i] * x.squaredNorm();
+    }
+    return sums;
+}
 
 /// Whether the links of each row of this rank weigh more on the row's own part than on any other.
 std::vector<int> rows_matched(const SparseRows& links, const std::vector<int>& labels, int parts) {
@@ -175,41 +196,52 @@ double match_recall(const Comm& comm, const SparseRows& links, const std::vector
     return sum / static_cast<double>(parts);
 }
 
-double explained_share(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
-                       const std::vector<double>& patch_area) {
-    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(histograms.rows(), parts);
-    std::vector<double> area(static_cast<std::size_t>(parts), 0.0);
-    double squares = 0.0;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        const auto column = static_cast<Eigen::Index>(i);
-        sums.col(labels[i]) += patch_area[i] * histograms.col(column).cast<double>();
-        area[static_cast<std::size_t>(labels[i])] += patch_area[i];
-        squares += patch_area[i] * histograms.col(column).cast<double>().squaredNorm();
+ExplainedSpread explained_spread(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
+                                 const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
+    const HistogramSums sums = sums_of_parts(histograms, labels, parts, patch_area, mesh_of);
+    const Eigen::Index meshes = sums.area.cols();
+    Eigen::MatrixXd deviations = Eigen::MatrixXd::Zero(histograms.rows(), parts);
+    double of_means = 0.0;
+    double own = 0.0;
+    for (Eigen::Index m = 0; m < meshes; ++m) {
+        const double area = sums.area.col(m).sum();
+        if (!(area > 0.0)) continue;
+        const auto of_mesh = sums.histograms.middleCols(m * parts, parts);
+        const Eigen::VectorXd mean = of_mesh.rowwise().sum() / area;
+        of_means += area * mean.squaredNorm();
+        for (int p = 0; p < parts; ++p) {
+            const double a = sums.area(p, m);
+            if (!(a > 0.0)) continue;
+            const Eigen::VectorXd deviation = of_mesh.col(p) - a * mean;
+            own += deviation.squaredNorm() / a;
+            deviations.col(p) += deviation;
+        }
     }
-    const double whole = std::accumulate(area.begin(), area.end(), 0.0);
-    if (whole <= 0.0) return 0.0;
-    const double of_mean = sums.rowwise().sum().squaredNorm() / whole;
-    double between = -of_mean;
+    const double spread = sums.squares - of_means;
+    if (!(spread > 1e-12 * sums.squares)) return {};
+    double common = 0.0;
     for (int p = 0; p < parts; ++p) {
-        const double a = area[static_cast<std::size_t>(p)];
-        if (a > 0.0) between += sums.col(p).squaredNorm() / a;
+        const double a = sums.area.row(p).sum();
+        if (a > 0.0) common += deviations.col(p).squaredNorm() / a;
     }
-    const double spread = squares - of_mean;
-    return spread > 1e-12 * squares ? std::clamp(between / spread, 0.0, 1.0) : 0.0;
+    return {.common = std::clamp(common / spread, 0.0, 1.0), .own = std::clamp(own / spread, 0.0, 1.0)};
 }
 
 std::vector<double> partition_scores(std::span<const PartitionTerms> partitions, const ChoiceWeights& weights,
-                                     std::span<const double> descriptor_weights) {
+                                     std::span<const ExplainedSpread> descriptor_weights) {
     std::vector<double> scores(partitions.size(), 0.0);
     if (partitions.empty()) return scores;
-    const auto add = [&](double weight, const auto& term) {
-        add_standardised(values_of(partitions, term), weight, 0.0, scores);
+    const auto add = [&](double weight, double least, const auto& term) {
+        add_standardised(values_of(partitions, term), weight, least, scores);
     };
-    add(weights.association, [](const PartitionTerms& p) { return p.association; });
-    add(weights.crease, [](const PartitionTerms& p) { return p.crease; });
-    add(weights.overlap, [](const PartitionTerms& p) { return p.overlap; });
-    for (std::size_t h = 0; h < descriptor_weights.size(); ++h)
-        add(descriptor_weights[h], [h](const PartitionTerms& p) { return p.explained[h]; });
+    add(weights.crease, weights.least_crease, [](const PartitionTerms& p) { return p.crease; });
+    add(weights.overlap, weights.least_overlap, [](const PartitionTerms& p) { return p.overlap; });
+    for (std::size_t h = 0; h < descriptor_weights.size(); ++h) {
+        add(descriptor_weights[h].common, weights.least_explained,
+            [h](const PartitionTerms& p) { return p.explained[h].common; });
+        add(descriptor_weights[h].own, weights.least_explained,
+            [h](const PartitionTerms& p) { return p.explained[h].own; });
+    }
     return scores;
 }
 

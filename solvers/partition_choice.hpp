@@ -12,35 +12,45 @@
 
 namespace coseg {
 
+/// How much of a descriptor's spread inside the meshes lies between the parts, see explained_spread(); in [0, 1].
+struct ExplainedSpread {
+    double common = 0.0;  ///< by one mean a part, the same in all meshes
+    double own = 0.0;     ///< by means of each mesh's own; at least `common`, but for rounding
+    friend bool operator==(const ExplainedSpread&, const ExplainedSpread&) = default;
+};
+
 /// What speaks for a partition; larger is better in each.
 struct PartitionTerms {
-    double association = 0.0;       ///< normalised association in the graph that scores
-    double crease = 0.0;            ///< see boundary_crease(); at most 0
-    double overlap = 0.0;           ///< see overlap_agreement(); in [0, 1]
-    std::vector<double> explained;  ///< per descriptor, see explained_share(); in [0, 1]
+    double crease = 0.0;                     ///< see boundary_crease(); at most 0
+    double overlap = 0.0;                    ///< see overlap_agreement(); in [0, 1]
+    std::vector<ExplainedSpread> explained;  ///< per descriptor
     double concavity =
         0.0;  ///< mean concavity mc along the boundaries between parts, weighted by length; in [0, 1]
     double presence = 0.0;  ///< see presence(); in [0, 1]
     double recall = 0.0;    ///< see match_recall(); in [0, 1]
 };
 
-/// How the terms are weighed: the first five make a score; among the partitions whose score comes within `margin` of the
-/// best, the last three decide together with it.
+/// How the terms are weighed: crease, overlap and what is explained of the descriptors make a score; among the partitions
+/// whose score comes within `margin` of the best, the last three decide together with it.
 struct ChoiceWeights {
-    double association = 0.4;
-    double crease = 1.1;
-    double overlap = 1.0;
-    double margin = 0.45;  ///< share of the way from the best score down to the median of all
-    double score = 1.3;    ///< of the score itself among those within the margin
-    double concavity = 1.5;
-    double presence = 1.2;
+    double crease = 2.2;
+    double overlap = 1.6;
+    /// Deviations over the partitions that count at least: where nearly all partitions are alike, what sets the odd one
+    /// apart is not magnified.
+    double least_crease = 0.2;
+    double least_overlap = 0.0025;
+    double least_explained = 0.07;
+    double margin = 0.3;  ///< share of the way from the best score down to the median of all
+    double score = 1.3;   ///< of the score itself among those within the margin
+    double concavity = 1.2;
+    double presence = 0.8;
     double recall = 0.6;
 };
 
 /// A descriptor whose histograms a good partition should explain.
 struct ChoiceDescriptor {
     Eigen::MatrixXf histograms;  ///< bins x N, column major, of any scale
-    double weight = 1.0;         ///< of its explained share in the score
+    ExplainedSpread weight;      ///< of what is explained of it in the score
 };
 
 /// Length-weighted mean concavity over neighbours of different labels; 0 if no two neighbours differ.
@@ -71,15 +81,19 @@ double overlap_agreement(const std::vector<OverlapRelation>& overlaps, const std
 double match_recall(const Comm& comm, const SparseRows& links, const std::vector<int>& labels, int parts,
                     const std::vector<double>& patch_area);
 
-/// Which share of the spread of the patches' histograms lies between the parts: sum over parts of a |mean of the part -
-/// mean|^2 over sum over patches of a |x - mean|^2, a the patch's area. 0 where all patches are alike. Sums in double.
-double explained_share(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
-                       const std::vector<double>& patch_area);
+/// The spread is the sum over patches of a |x - mean of the mesh|^2, x the histogram and a the area of the patch. `own` is the
+/// share of it in the sum over meshes and parts of a |mean of the part in the mesh - mean of the mesh|^2: parts that
+/// differ inside each shape. `common` is the share in the sum over parts of a |mean over the part of x - mean of the
+/// mesh|^2: parts that differ in the same way in all shapes. What tells shapes apart counts in neither, or a partition
+/// by style (round legs, square legs) would seem to explain much. Both 0 where patches of a mesh are all alike. Sums in
+/// double, in the order of patches.
+ExplainedSpread explained_spread(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
+                                 const std::vector<double>& patch_area, const std::vector<int>& mesh_of);
 
-/// Per partition the weighted sum of its terms of the score, each standardised over all partitions (mean 0, deviation 1; a
-/// term that does not vary counts 0). `descriptor_weights`: one for each of PartitionTerms::explained.
+/// Per partition the weighted sum of its terms of the score, each standardised over all partitions: mean 0, deviation 1, or less
+/// where the deviation is below its least. `descriptor_weights`: one for each of PartitionTerms::explained.
 std::vector<double> partition_scores(std::span<const PartitionTerms> partitions, const ChoiceWeights& weights,
-                                     std::span<const double> descriptor_weights);
+                                     std::span<const ExplainedSpread> descriptor_weights);
 
 /// Which partition to take of those that `eligible` marks (at least one): those whose scores come within the margin of
 /// the best make a short list; in it the score counts as it is, and concavity, presence and recall standardised over the list (by at least

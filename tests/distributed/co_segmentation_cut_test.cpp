@@ -37,7 +37,8 @@ Eigen::MatrixXf histograms_of(const ToyCollection& toy) {
 }
 
 CutResult cut(const Comm& comm, const ToyCollection& toy, const CutOptions& options) {
-    const std::vector<ChoiceDescriptor> descriptors = {{histograms_of(toy), 1.0}};
+    // What the descriptors of a run weigh together.
+    const std::vector<ChoiceDescriptor> descriptors = {{histograms_of(toy), {.common = 1.0, .own = 4.8}}};
     return co_segmentation_cut(
         comm, {toy.coefficients, toy.neighbors, toy.overlaps, toy.mesh_of, toy.area, descriptors}, options);
 }
@@ -117,7 +118,8 @@ TEST_P(CoSegmentationCut, AllRanksTogetherFindWhatOneFindsAlone) {
     const int parts = GetParam();
     const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
     CutOptions options = pooled(parts);
-    options.starts = {{{2.0, 2.0}, 2 * parts, {2.0, 2.0}}};
+    options.starts = {{{2.0, 2.0}, 2 * parts, MergeRule::normalized_cut},
+                      {{2.0, 2.0}, 2 * parts, MergeRule::linkage}};
     options.starts.push_back(single_start(parts, 5.0)[0]);
     const CutResult dealt = cut(comm, toy, options);
     options.one_rank_entries = 0;

@@ -102,7 +102,8 @@ TEST(NormalizedCut, SeparatesTwoCliquesAtTheBridge) {
         for (int i = 0; i < 2 * n; ++i) {
             EXPECT_EQ(labels[static_cast<std::size_t>(i)] == labels[0], i < n) << "node " << i;
         }
-        const double value = 2.0 - normalized_association(cluster_links(self, s, labels, 2));
+        const ClusterLinks links = cluster_links(self, s, labels, 2);
+        const double value = links.links(0, 1) / links.volume(0) + links.links(1, 0) / links.volume(1);
         EXPECT_NEAR(value, 2.0 * 0.5 / (n * (n - 1) + 0.5), 1e-12);
     }
 }

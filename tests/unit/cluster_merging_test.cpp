@@ -43,7 +43,8 @@ TEST(ClusterMerging, OneMergerIsTheBestOfAllPairs) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         constexpr int clusters = 6;
         const ClusterLinks c = random_links(clusters, seed);
-        const std::vector<int> merged = merge_clusters(c, std::vector<int>(clusters, 1), clusters - 1);
+        const std::vector<int> merged =
+            merge_clusters(c, std::vector<int>(clusters, 1), clusters - 1, MergeRule::normalized_cut);
         double best = 1e9;
         for (int a = 0; a < clusters; ++a) {
             for (int b = a + 1; b < clusters; ++b) {
@@ -63,13 +64,48 @@ TEST(ClusterMerging, PutsHalvesTogether) {
     for (int a = 0; a < 6; ++a) c.links(a, a) = 2.0;
     for (int a = 0; a < 3; ++a) c.links(a, a + 3) = c.links(a + 3, a) = 1.5;
     c.volume = c.links.rowwise().sum();
-    EXPECT_EQ(merge_clusters(c, std::vector<int>(6, 4), 3), (std::vector<int>{0, 1, 2, 0, 1, 2}));
+    for (const MergeRule rule : {MergeRule::normalized_cut, MergeRule::linkage})
+        EXPECT_EQ(merge_clusters(c, std::vector<int>(6, 4), 3, rule), (std::vector<int>{0, 1, 2, 0, 1, 2}));
 }
 
 TEST(ClusterMerging, EmptyClustersDoNotCountAndTiesGoToTheLowest) {
     ClusterLinks c{Eigen::MatrixXd::Constant(5, 5, 1.0), Eigen::VectorXd::Constant(5, 5.0)};
-    EXPECT_EQ(merge_clusters(c, {3, 0, 2, 2, 1}, 3), (std::vector<int>{0, -1, 0, 1, 2}));
-    EXPECT_EQ(merge_clusters(c, {3, 0, 0, 0, 1}, 3), (std::vector<int>{0, -1, -1, -1, 1}));
+    for (const MergeRule rule : {MergeRule::normalized_cut, MergeRule::linkage}) {
+        EXPECT_EQ(merge_clusters(c, {3, 0, 2, 2, 1}, 3, rule), (std::vector<int>{0, -1, 0, 1, 2}));
+        EXPECT_EQ(merge_clusters(c, {3, 0, 0, 0, 1}, 3, rule), (std::vector<int>{0, -1, -1, -1, 1}));
+    }
+}
+
+TEST(ClusterMerging, LinkageSparesASmallLooseClusterThatTheNormalisedCutGivesUp) {
+    // 0 and 1 are halves of a part, 2 is a small part beside 3.
+    ClusterLinks c{Eigen::MatrixXd::Zero(4, 4), Eigen::VectorXd::Zero(4)};
+    c.links.diagonal() << 100.0, 100.0, 6.0, 100.0;
+    c.links(0, 1) = c.links(1, 0) = 10.0;
+    c.links(2, 3) = c.links(3, 2) = 2.5;
+    c.volume = c.links.rowwise().sum();
+    const std::vector<int> sizes(4, 1);
+    EXPECT_EQ(merge_clusters(c, sizes, 3, MergeRule::normalized_cut), (std::vector<int>{0, 1, 2, 2}));
+    EXPECT_EQ(merge_clusters(c, sizes, 3, MergeRule::linkage), (std::vector<int>{0, 0, 1, 2}));
+}
+
+TEST(ClusterMerging, LinkageJoinsTheLargestShareOfTheMeanVolume) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        constexpr int clusters = 6;
+        const ClusterLinks c = random_links(clusters, seed);
+        const std::vector<int> merged =
+            merge_clusters(c, std::vector<int>(clusters, 1), clusters - 1, MergeRule::linkage);
+        double largest = 0.0;
+        double joined = 0.0;
+        for (int a = 0; a < clusters; ++a) {
+            for (int b = a + 1; b < clusters; ++b) {
+                const double share = c.links(a, b) / std::sqrt(c.volume(a) * c.volume(b));
+                largest = std::max(largest, share);
+                if (merged[static_cast<std::size_t>(a)] == merged[static_cast<std::size_t>(b)])
+                    joined = share;
+            }
+        }
+        EXPECT_DOUBLE_EQ(joined, largest) << "seed " << seed;
+    }
 }
 
 TEST(ClusterMerging, SharesOfAMeshSumToOne) {
@@ -77,11 +113,6 @@ TEST(ClusterMerging, SharesOfAMeshSumToOne) {
     Eigen::MatrixXd expected(3, 2);
     expected << 0.25, 0.0, 0.75, 0.25, 0.0, 0.75;
     EXPECT_EQ(shares, expected);
-}
-
-TEST(ClusterMerging, AssociationAndCutAddUpToTheNumberOfClusters) {
-    const ClusterLinks c = random_links(4, 9);
-    EXPECT_NEAR(normalized_association(c), 4.0 - normalized_cut(c, {0, 1, 2, 3}, 4), 1e-12);
 }
 
 }  // namespace
