@@ -3,13 +3,14 @@
 
 usage: bench/accuracy.py [--coseg build/bin/coseg] [--data $COSEG_DATA] [--sets NAME ...] [--presets default paper]
                          [--seeds 1 2 3] [--ranks 2] [--out accuracy.json] [--table docs/accuracy.md]
-                         [--generated SHAPES [FAMILY ...]]
+                         [--generated SHAPES [FAMILY ...]] [--turned]
 
 The data folder is either a folder of sets, each with meshes, a NAME.seg of truth for every mesh and labels.txt, or the
 Princeton Segmentation Benchmark: off/N.off and "human seg"/Benchmark/N/N_ANNOTATOR.seg (or seg/Benchmark/...); its
 categories are then the sets. A preset may be followed by options, in quotes: "default --refine none".
 
 --generated measures on collections of so many shapes of each family of `coseg generate` (seed 1) instead of a data folder.
+--turned turns every shape (OFF) about its own axis by its own angle first: figures that owe nothing to how shapes stand in their files.
 
 K is the number of truth labels. Every figure is what `coseg score` prints for the labels of one `coseg run`: area
 rightly labelled in percent, mean over the shapes of a set; means and sample deviations over seeds. For the Princeton
@@ -21,7 +22,9 @@ same program goes on where the first one ended. Runs that fail are listed, and r
 import argparse
 import hashlib
 import json
+import math
 import os
+import random
 import re
 import shlex
 import statistics
@@ -110,6 +113,42 @@ def generated_sets(coseg, shapes, families, folder):
         truth = os.path.join(made, "truth")
         sets[f"generated_{family}"] = {"parts": truth_labels(truth), "meshes": [os.path.join(made, "meshes")], "truth": truth}
     return sets
+
+
+def random_rotation(name):
+    """Of the name alone; uniform: a unit quaternion of four normal numbers."""
+    numbers = random.Random(name)
+    w, x, y, z = (numbers.gauss(0.0, 1.0) for _ in range(4))
+    norm = math.sqrt(w * w + x * x + y * y + z * z)
+    w, x, y, z = w / norm, x / norm, y / norm, z / norm
+    return [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+
+
+def turn_off(source, target, rotation):
+    with open(source) as file:
+        lines = [line for line in file.read().split("\n") if line.strip() and not line.lstrip().startswith("#")]
+    vertices = int(lines[1].split()[0])
+    for k in range(2, 2 + vertices):
+        point = [float(word) for word in lines[k].split()[:3]]
+        lines[k] = " ".join(f"{sum(a * b for a, b in zip(row, point)):.9g}" for row in rotation)
+    with open(target, "w") as file:
+        file.write("\n".join(lines) + "\n")
+
+
+def turned_sets(sets, folder):
+    turned = {}
+    for name, one_set in sets.items():
+        if "truth" not in one_set:
+            sys.exit("accuracy: --turned is for sets with a truth of their own")
+        made = os.path.join(folder, "turned", name)
+        os.makedirs(made)
+        for mesh in sorted(os.listdir(one_set["meshes"][0])):
+            if mesh.endswith(".off"):
+                turn_off(os.path.join(one_set["meshes"][0], mesh), os.path.join(made, mesh), random_rotation(mesh))
+        turned[f"{name} (turned)"] = {**one_set, "meshes": [made]}
+    return turned
 
 
 def command_output(words, timeout=None):
@@ -283,6 +322,8 @@ def document(args, sets, figures):
     command = "bench/accuracy.py" + (" --presets " + shlex.join(args.presets) if args.presets != ["default", "paper"] else "")
     if args.generated:
         command += " --generated " + shlex.join(args.generated)
+    if args.turned:
+        command += " --turned"
     text = ("# Accuracy\n\n"
             f"Written by `{command}`: seeds {seeds}, {args.ranks} ranks, one set of parameters a preset. One-to-one accuracy by "
             "area in percent, mean over the shapes of a set, ± sample deviation over seeds. \"One label\" is what a single part "
@@ -308,6 +349,7 @@ def main():
     parser.add_argument("--data", default=os.environ.get("COSEG_DATA"))
     parser.add_argument("--sets", nargs="+")
     parser.add_argument("--generated", nargs="+", metavar=("SHAPES", "FAMILY"))
+    parser.add_argument("--turned", action="store_true")
     parser.add_argument("--presets", nargs="+", default=["default", "paper"])
     parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
     parser.add_argument("--ranks", type=int, default=2)
@@ -328,6 +370,8 @@ def main():
             sets = generated_sets(args.coseg, int(shapes), families, scratch)
         else:
             sets = find_sets(args.data, args.sets)
+        if args.turned:
+            sets = turned_sets(sets, scratch)
         figures = read_figures(args.out)
         failures = run_all(args, sets, figures)
         write_whole(args.table, document(args, sets, figures))

@@ -99,6 +99,7 @@ Json of_partition(const Report& report) {
     Json starts = Json::array();
     for (const ReportStart& s : report.starts) {
         starts.push_back({{"adjacency", s.adjacency},
+                          {"placed", s.placed},
                           {"clusters", s.clusters},
                           {"merging", s.merging},
                           {"score", s.score},
@@ -108,11 +109,13 @@ Json of_partition(const Report& report) {
                           {"explained_common", s.explained_common},
                           {"explained_own", s.explained_own}});
     }
-    return {{"eigenvalues", report.eigenvalues},
-            {"starts", starts},
-            {"chosen_start", report.chosen_start},
-            {"part_area", report.part_area},
-            {"affinity", {{"rows", report.affinity_rows}, {"part_ends", report.affinity_part_ends}}}};
+    return {
+        {"eigenvalues", report.eigenvalues},
+        {"starts", starts},
+        {"chosen_start", report.chosen_start},
+        {"places", {{"directions", report.place_directions}, {"correlations", report.place_correlations}}},
+        {"part_area", report.part_area},
+        {"affinity", {{"rows", report.affinity_rows}, {"part_ends", report.affinity_part_ends}}}};
 }
 
 Json of_features(const Report& report) {

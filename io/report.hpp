@@ -75,6 +75,7 @@ struct ReportOptimisation {
 
 struct ReportStart {
     double adjacency = 0.0;
+    bool placed = false;  ///< links weighed by place
     int clusters = 0;
     std::string merging;  ///< the rule that merged the clusters
     double score = 0.0;
@@ -119,6 +120,9 @@ struct Report {
     std::vector<double> eigenvalues;
     std::vector<ReportStart> starts;
     int chosen_start = 0;
+    /// Three unit vectors in the axes of the files, ascending by how well the places of linked patches agree along them.
+    std::vector<std::vector<double>> place_directions;
+    std::vector<double> place_correlations;
     std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
     std::vector<ReportStrength> feature_strengths;
     std::vector<double>

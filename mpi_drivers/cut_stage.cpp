@@ -33,7 +33,16 @@ std::vector<OverlapRelation> local_overlaps(const Collection& collection) {
 
 namespace {
 
-CutOptions cut_options(const RunOptions& options) {
+void append(std::vector<CutStart>& starts, const std::vector<CutStart>& more) {
+    starts.insert(starts.end(), more.begin(), more.end());
+}
+
+/// Whether the cut and its choice look at where patches lie.
+bool looks_at_places(const PatchFeatures& features, const RunOptions& options) {
+    return options.choose && options.places && features.places.cols() > 0;
+}
+
+CutOptions cut_options(const PatchFeatures& features, const RunOptions& options) {
     CutOptions cut;
     cut.parts = options.parts;
     cut.form = options.affinity == "formula-8" ? AffinityForm::paper : AffinityForm::links;
@@ -44,10 +53,8 @@ CutOptions cut_options(const RunOptions& options) {
     }
     if (options.choose) {
         cut.starts = pooled_starts(options.parts);
-        if (options.articulated) {
-            const std::vector<CutStart> more = articulated_starts(options.parts);
-            cut.starts.insert(cut.starts.end(), more.begin(), more.end());
-        }
+        if (options.articulated) append(cut.starts, articulated_starts(options.parts));
+        if (looks_at_places(features, options)) append(cut.starts, pooled_starts(options.parts, true));
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
         const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
@@ -69,8 +76,10 @@ std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, 
             descriptors.push_back({features.histograms[h].cast<float>(), weight});
         };
         if (feature == Feature::gaussian_curvature) add({.common = 0.0, .own = 1.4});
-        if (feature == Feature::shape_diameter) add({.common = 1.6, .own = 4.0});
+        if (feature == Feature::shape_diameter) add({.common = 2.2, .own = 5.6});
     }
+    if (looks_at_places(features, options))
+        descriptors.push_back({features.places.cast<float>(), {.common = 1.0, .own = 0.0}});
     return descriptors;
 }
 
@@ -87,9 +96,10 @@ CutResult cut_into_parts(const Comm& comm, const Collection& collection, const P
     const std::vector<ChoiceDescriptor> made =
         features.choice.empty() ? choice_descriptors(features, options) : std::vector<ChoiceDescriptor>{};
     const std::vector<ChoiceDescriptor>& descriptors = features.choice.empty() ? made : features.choice;
-    return co_segmentation_cut(comm,
-                               {coefficients, neighbors, overlaps, mesh_of, features.patch_area, descriptors},
-                               cut_options(options));
+    return co_segmentation_cut(
+        comm,
+        {coefficients, neighbors, overlaps, mesh_of, features.patch_area, descriptors, &features.places},
+        cut_options(features, options));
 }
 
 }  // namespace coseg

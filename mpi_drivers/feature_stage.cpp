@@ -10,6 +10,7 @@
 #include "solvers/shape_words.hpp"
 #include "src/feature_range.hpp"
 #include "src/histogram.hpp"
+#include "src/patch_places.hpp"
 #include "src/patch_relations.hpp"
 #include "src/seeded_random.hpp"
 
@@ -143,20 +144,24 @@ void fill_word_histograms(const Comm& comm, const Collection& collection, const 
     }
 }
 
-std::vector<double> gathered_areas(const Comm& comm, const Collection& collection) {
+/// Areas and places of all patches. Collective.
+void gather_patches(const Comm& comm, const Collection& collection, PatchFeatures& features) {
     std::vector<Eigen::MatrixXd> local;
     for (const MeshDescription& mesh : collection.local) {
-        Eigen::MatrixXd areas(1, collection.numbering.count(mesh.mesh));
+        Eigen::MatrixXd columns(4, collection.numbering.count(mesh.mesh));
         Eigen::Index next = 0;
         for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
             const int count = mesh.patch_counts[s];
-            areas.middleCols(next, count) = patch_areas(mesh.geometry, mesh.patches[s], count).transpose();
+            columns.middleCols(next, count) << patch_areas(mesh.geometry, mesh.patches[s], count).transpose(),
+                patch_places(mesh.geometry, mesh.patches[s], count);
             next += count;
         }
-        local.push_back(std::move(areas));
+        local.push_back(std::move(columns));
     }
-    const Eigen::MatrixXd all = gather_patch_columns(comm, collection, local, 1);
-    return {all.data(), all.data() + all.size()};
+    const Eigen::MatrixXd all = gather_patch_columns(comm, collection, local, 4);
+    const Eigen::VectorXd areas = all.row(0).transpose();
+    features.patch_area.assign(areas.begin(), areas.end());
+    features.places = all.bottomRows(3);
 }
 
 /// What the allocator then holds in small pieces goes back to the system: the next stages ask for large ones.
@@ -193,7 +198,7 @@ PatchFeatures patch_features(const Comm& comm, Collection& collection, const Run
         }
     }
     features.histograms.share(filled_columns(collection));
-    features.patch_area = gathered_areas(comm, collection);
+    gather_patches(comm, collection, features);
     release_descriptors(collection);
     return features;
 }

@@ -110,6 +110,8 @@ ContentHash cut_key(const Comm& comm, const Collection& collection, const PatchF
     const std::vector<int> mesh_of = collection.numbering.mesh_of();
     hasher.add(std::span<const int>(mesh_of));
     hasher.add(std::span<const double>(features.patch_area));
+    hasher.add(
+        std::span<const double>(features.places.data(), static_cast<std::size_t>(features.places.size())));
     for (const ChoiceDescriptor& d : features.choice) {
         const auto entries = static_cast<std::size_t>(d.histograms.size());
         hasher.add(std::span<const float>(d.histograms.data(), entries));
@@ -118,7 +120,7 @@ ContentHash cut_key(const Comm& comm, const Collection& collection, const PatchF
 }
 
 constexpr std::size_t start_numbers = 8;
-constexpr std::size_t start_counts = 7;
+constexpr std::size_t start_counts = 8;
 
 void write_starts(Hdf5Writer& file, const std::vector<StartOutcome>& starts) {
     std::vector<double> numbers;
@@ -133,7 +135,8 @@ void write_starts(Hdf5Writer& file, const std::vector<StartOutcome>& starts) {
         numbers.insert(numbers.end(),
                        {graph.adjacency, graph.overlap, crease, overlap, concavity, present, recall, score});
         counts.insert(counts.end(), {clusters, static_cast<int>(merging), parts_found, set_aside, unreached,
-                                     static_cast<int>(values.size()), static_cast<int>(shares.size())});
+                                     static_cast<int>(values.size()), static_cast<int>(shares.size()),
+                                     static_cast<int>(graph.placed)});
         eigenvalues.insert(eigenvalues.end(), values.begin(), values.end());
         for (const auto& [common, own] : shares) explained.insert(explained.end(), {common, own});
     }
@@ -159,7 +162,7 @@ std::vector<StartOutcome> read_starts(const Hdf5Reader& file) {
             spread.common = *share++;
             spread.own = *share++;
         }
-        starts[k] = {.start = {{n[0], n[1]}, c[0], static_cast<MergeRule>(c[1])},
+        starts[k] = {.start = {{n[0], n[1], c[7] != 0}, c[0], static_cast<MergeRule>(c[1])},
                      .terms = {.crease = n[2],
                                .overlap = n[3],
                                .explained = std::move(shares),
@@ -190,7 +193,7 @@ std::string cut_option_text(const std::vector<std::pair<std::string, std::string
 }
 
 void write_cut(const std::string& path, const CutResult& cut) {
-    const auto& [part_of_patch, part_share, meshes_with_part, starts, chosen] = cut;
+    const auto& [part_of_patch, part_share, meshes_with_part, starts, frame, chosen] = cut;
     Hdf5Writer file(path, cut_format, cut_version);
     file.attribute("source_fingerprint", source_fingerprint());
     file.attribute("chosen", std::int64_t{chosen});
@@ -200,6 +203,9 @@ void write_cut(const std::string& path, const CutResult& cut) {
     file.write("part_share", part_share);
     file.write("meshes_with_part", meshes_with_part);
     write_starts(file, starts);
+    file.write_matrix("places/mean", frame.mean);
+    file.write_matrix("places/directions", frame.directions);
+    file.write_matrix("places/correlation", frame.correlation);
     file.commit();
 }
 
@@ -209,6 +215,8 @@ CutResult read_cut(const std::string& path) {
             .part_share = file.read<double>("part_share"),
             .meshes_with_part = file.read<std::int32_t>("meshes_with_part"),
             .starts = read_starts(file),
+            .frame = {file.read_matrix("places/mean"), file.read_matrix("places/directions"),
+                      file.read_matrix("places/correlation")},
             .chosen = static_cast<int>(file.integer("chosen"))};
 }
 

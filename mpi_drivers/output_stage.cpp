@@ -99,6 +99,7 @@ void add_strengths(Report& report, const FeatureStrength& strength, const RunOut
 void add_partition(Report& report, const CutResult& cut) {
     for (const StartOutcome& start : cut.starts) {
         ReportStart row{.adjacency = start.start.graph.adjacency,
+                        .placed = start.start.graph.placed,
                         .clusters = start.start.clusters,
                         .merging = start.start.merging == MergeRule::linkage ? "linkage" : "normalized_cut",
                         .score = start.score,
@@ -114,6 +115,11 @@ void add_partition(Report& report, const CutResult& cut) {
         report.starts.push_back(std::move(row));
     }
     report.chosen_start = cut.chosen;
+    for (int a = 0; a < 3; ++a) {
+        const Eigen::Vector3d direction = cut.frame.directions.col(a).normalized();
+        report.place_directions.push_back({direction[0], direction[1], direction[2]});
+        report.place_correlations.push_back(cut.frame.correlation[a]);
+    }
     if (cut.starts.empty()) return;  // one part needs no cut
     report.eigenvalues = cut.starts[static_cast<std::size_t>(cut.chosen)].eigenvalues;
 }

@@ -42,6 +42,7 @@ PartCollection part_of_collection(const Comm& comm, const Collection& collection
     part.features.feature_of = features.feature_of;
     for (const int patch : part.patch_of)
         part.features.patch_area.push_back(features.patch_area[static_cast<std::size_t>(patch)]);
+    part.features.places = features.places(Eigen::all, part.patch_of);
     return part;
 }
 

@@ -286,6 +286,11 @@ void RunOptionTable::add_partition(CLI::App& app) {
     add_switch(app, "articulated", options_.articulated,
                "With --choose: cuts without adjacency among those tried, for shapes of many limbs",
                partition_group);
+    add_switch(
+        app, "places", options_.places,
+        "With --choose: cuts with links weighed by where their patches lie among those tried, for shapes "
+        "that stand alike",
+        partition_group);
 }
 
 std::vector<std::pair<std::string, std::string>> RunOptionTable::resolved() const {

@@ -66,6 +66,7 @@ struct RunOptions {
     bool choose = true;
     std::string refine = "held";
     bool articulated = true;
+    bool places = true;
 };
 
 /// The names of the presets, in the order of --help.

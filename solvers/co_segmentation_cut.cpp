@@ -18,6 +18,8 @@ namespace {
 /// The terms of every start's graph, rows as the group that works on a graph owns them.
 struct CutTerms {
     SparseRows base;
+    PlaceFrame frame;
+    double placed_share = 1.0;  ///< total of the base weighed by place over its own
     SparseRows adjacency;
     SparseRows overlap;
     double adjacency_scale = 0.0;
@@ -32,6 +34,11 @@ struct LabelledOutcome {
     StartOutcome outcome;
     std::vector<int> labels;
 };
+
+bool asks_for_places(const CutOptions& options) {
+    return std::any_of(options.starts.begin(), options.starts.end(),
+                       [](const CutStart& start) { return start.graph.placed; });
+}
 
 void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOptions& options) {
     agree(comm, [&] {
@@ -48,6 +55,8 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
                         "coefficients, meshes and areas of the cut are of different lengths");
         }
         if (options.starts.empty()) throw Error(ExitCode::internal, "a cut without a start");
+        if (asks_for_places(options) && (input.places == nullptr || input.places->cols() != patches))
+            throw Error(ExitCode::internal, "a cut by places without the place of every patch");
     });
 }
 
@@ -57,6 +66,13 @@ SparseRows base_affinity(const Comm& comm, const CutInput& input, const CutOptio
                                                           : normalized_links(comm, input.coefficients);
     if (options.minima_rule) apply_minima_rule(base, neighbors);
     return base;
+}
+
+void find_places(const Comm& comm, const CutInput& input, double base_total, CutTerms& terms) {
+    terms.frame = place_frame(comm, terms.base, *input.places, input.mesh_of);
+    SparseRows placed = terms.base;
+    weigh_by_place(terms.frame, *input.places, input.mesh_of, placed);
+    if (base_total > 0.0) terms.placed_share = total(comm, placed) / base_total;
 }
 
 /// `one_rank`: the group that works on a graph is one rank, so every rank holds complete terms.
@@ -78,6 +94,7 @@ CutTerms cut_terms(const Comm& comm, const Comm& self, bool one_rank, const CutI
     terms.overlap_scale = overlap_total > 0.0 ? reference / overlap_total : 0.0;
     const WeightedMatrix bonds[] = {{&adjacency, terms.adjacency_scale}, {&overlap, terms.overlap_scale}};
     terms.bonds = weighted_sum(bonds);
+    if (asks_for_places(options)) find_places(comm, input, base_total, terms);
     if (one_rank) {
         terms.base = gather_rows(comm, terms.base);
         terms.adjacency = adjacency;
@@ -89,11 +106,14 @@ CutTerms cut_terms(const Comm& comm, const Comm& self, bool one_rank, const CutI
     return terms;
 }
 
-SparseRows graph_of(const CutTerms& terms, GraphWeights weights, double drop_below) {
+SparseRows graph_of(const CutTerms& terms, const CutInput& input, GraphWeights weights, double drop_below) {
+    const double share = weights.placed ? terms.placed_share : 1.0;
     const WeightedMatrix parts[] = {{&terms.base, 1.0},
-                                    {&terms.adjacency, weights.adjacency * terms.adjacency_scale},
-                                    {&terms.overlap, weights.overlap * terms.overlap_scale}};
+                                    {&terms.adjacency, share * weights.adjacency * terms.adjacency_scale},
+                                    {&terms.overlap, share * weights.overlap * terms.overlap_scale}};
     SparseRows graph = weighted_sum(parts);
+    // Between meshes the graph is the base.
+    if (weights.placed) weigh_by_place(terms.frame, *input.places, input.mesh_of, graph);
     if (drop_below > 0.0) drop_small_entries(graph, drop_below);
     return graph;
 }
@@ -208,7 +228,7 @@ std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& start
 std::vector<LabelledOutcome> run_graph(const Comm& group, const CutInput& input, const CutOptions& options,
                                        const CutTerms& terms, const std::vector<int>& starts) {
     const CutStart& first = options.starts[static_cast<std::size_t>(starts.front())];
-    const SparseRows graph = graph_of(terms, first.graph, options.drop_below);
+    const SparseRows graph = graph_of(terms, input, first.graph, options.drop_below);
     int count = options.parts;
     for (const int k : starts) count = std::max(count, options.starts[static_cast<std::size_t>(k)].clusters);
     const SpectralEmbedding embedding =
@@ -359,11 +379,11 @@ std::vector<int> cluster_counts(int parts) {
 
 }  // namespace
 
-std::vector<CutStart> pooled_starts(int parts) {
+std::vector<CutStart> pooled_starts(int parts, bool placed) {
     const std::vector<int> clusters = cluster_counts(parts);
     std::vector<CutStart> starts;
     for (const double weight : {1.0, 2.0, 4.0, 8.0}) {
-        const GraphWeights graph{weight, weight};
+        const GraphWeights graph{weight, weight, placed};
         for (const int count : clusters) {
             starts.push_back({graph, count, MergeRule::normalized_cut});
             if (count > parts) starts.push_back({graph, count, MergeRule::linkage});
@@ -413,6 +433,7 @@ CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const Cut
     result.chosen = static_cast<int>(choose(outcomes, input, options.choice));
     result.part_of_patch = outcomes[static_cast<std::size_t>(result.chosen)].labels;
     for (LabelledOutcome& r : outcomes) result.starts.push_back(std::move(r.outcome));
+    result.frame = terms.frame;
     describe_parts(input.mesh_of, input.patch_area, options.parts, result);
     return result;
 }

@@ -9,6 +9,7 @@
 #include "solvers/coefficients.hpp"
 #include "solvers/partition_choice.hpp"
 #include "solvers/patch_links.hpp"
+#include "solvers/place_agreement.hpp"
 #include "solvers/spectral_embedding.hpp"
 #include "src/comm.hpp"
 
@@ -25,6 +26,8 @@ enum class AffinityForm {
 struct GraphWeights {
     double adjacency = 0.0;
     double overlap = 0.0;
+    bool placed =
+        false;  ///< the base weighed by the places of its ends, see place_agreement.hpp; A' and O' of its total
     friend bool operator==(const GraphWeights&, const GraphWeights&) = default;
 };
 
@@ -36,7 +39,8 @@ struct CutStart {
 };
 
 /// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 5K/2, 3K}, more than K merged by both rules.
-std::vector<CutStart> pooled_starts(int parts);
+/// `placed`: with links weighed by place.
+std::vector<CutStart> pooled_starts(int parts, bool placed = false);
 
 /// Without adjacency (overlap 1), clusters in {K+1, K+2, 2K, 5K/2, 3K}, merged by the normalised cut: for shapes with
 /// many limbs, where adjacency in the cut does harm.
@@ -53,6 +57,8 @@ struct CutInput {
     const std::vector<double>& patch_area;  ///< of all patches, the same on all ranks
     /// What the choice among several starts looks at, the same on all ranks; none where there is one start.
     std::span<const ChoiceDescriptor> descriptors = {};
+    /// 3 x N, the same on all ranks, see place_frame; needed where a start's graph is placed.
+    const Eigen::Matrix3Xd* places = nullptr;
 };
 
 struct CutOptions {
@@ -83,6 +89,7 @@ struct CutResult {
     std::vector<double> part_share;  ///< mean over meshes of the part's share of area
     std::vector<int> meshes_with_part;  ///< in how many meshes the part occurs; few is a warning sign
     std::vector<StartOutcome> starts;   ///< in the order of CutOptions::starts
+    PlaceFrame frame;                   ///< of the base; without correlation where no start is placed
     int chosen = 0;                     ///< the start taken: best_partition of those with the most parts
 };
 
@@ -99,7 +106,7 @@ CutResult described_partition(const std::vector<int>& labels, int parts, const s
 ///
 /// Collective. Throws AgreedError: usage (parts out of range), input (nothing to cut), not_converged,
 /// internal. Source: the paper, equation (8), minima rule and normalised cut; Deviates: `links`, adjacency,
-/// overlaps, balance of meshes, several starts and their choice.
+/// overlaps, balance of meshes, places, several starts and their choice.
 CutResult co_segmentation_cut(const Comm& comm, const CutInput& input, const CutOptions& options);
 
 }  // namespace coseg

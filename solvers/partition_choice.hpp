@@ -33,7 +33,7 @@ struct PartitionTerms {
 /// How the terms are weighed: crease, overlap and what is explained of the descriptors make a score; among the partitions
 /// whose score comes within `margin` of the best, the last three decide together with it.
 struct ChoiceWeights {
-    double crease = 2.2;
+    double crease = 1.9;
     double overlap = 1.6;
     /// Deviations over the partitions that count at least: where nearly all partitions are alike, what sets the odd one
     /// apart is not magnified.
@@ -47,9 +47,9 @@ struct ChoiceWeights {
     double recall = 0.6;
 };
 
-/// A descriptor whose histograms a good partition should explain.
+/// A descriptor that a good partition should explain.
 struct ChoiceDescriptor {
-    Eigen::MatrixXf histograms;  ///< bins x N, column major, of any scale
+    Eigen::MatrixXf histograms;  ///< bins x N, column major, of any scale; or other numbers of a patch
     ExplainedSpread weight;      ///< of what is explained of it in the score
 };
 

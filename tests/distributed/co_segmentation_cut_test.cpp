@@ -159,6 +159,85 @@ TEST_P(CoSegmentationCut, RecallIsTheShareOfLinksThatStayAtHome) {
 
 INSTANTIATE_TEST_SUITE_P(Parts, CoSegmentationCut, testing::Values(2, 3, 5));
 
+/// Two parts of eight patches in each of five meshes, one above the other. Patches are linked to all of the other meshes:
+/// those of mesh 0 more to the wrong part, the others to their own.
+struct MisleadingLinks {
+    static constexpr int meshes = 5;
+    static constexpr int patches = meshes * 16;
+    std::vector<int> mesh_of;
+    std::vector<int> truth;
+    std::vector<double> area = std::vector<double>(patches, 1.0 / 16.0);
+    Eigen::Matrix3Xd places = Eigen::Matrix3Xd::Zero(3, patches);
+    SparseCoefficients coefficients;
+
+    explicit MisleadingLinks(const Comm& comm) {
+        for (int i = 0; i < patches; ++i) {
+            mesh_of.push_back(i / 16);
+            truth.push_back(i % 16 / 8);
+            const auto random = [&](std::uint64_t k) {
+                return uniform_of(hash_words({static_cast<std::uint64_t>(i), k})) - 0.5;
+            };
+            places.col(i) << random(1), random(2), (truth.back() == 0 ? -1.0 : 1.0) + random(3);
+        }
+        coefficients.size = patches;
+        coefficients.features = 1;
+        coefficients.columns = block_range(patches, comm.size(), comm.rank(), coefficient_tile);
+        coefficients.offsets = {0};
+        for (auto j = static_cast<int>(coefficients.columns.begin); j < coefficients.columns.end; ++j) {
+            for (int i = 0; i < patches; ++i) add(i, j);
+            coefficients.offsets.push_back(static_cast<std::int64_t>(coefficients.rows.size()));
+        }
+    }
+
+    void add(int row, int column) {
+        const auto i = static_cast<std::size_t>(row);
+        const auto j = static_cast<std::size_t>(column);
+        if (mesh_of[i] == mesh_of[j]) return;
+        const bool misled = mesh_of[i] == 0 || mesh_of[j] == 0;
+        coefficients.rows.push_back(row);
+        coefficients.values.push_back(truth[i] == truth[j] ? (misled ? 0.4 : 1.0) : (misled ? 0.6 : 0.1));
+    }
+
+    [[nodiscard]] CutInput input(const std::vector<PatchRelation>& neighbors,
+                                 const std::vector<OverlapRelation>& overlaps) const {
+        return {coefficients, neighbors, overlaps, mesh_of, area, {}, &places};
+    }
+};
+
+TEST(CoSegmentationCutByPlace, PlacesSetRightWhatLinksAloneMislead) {
+    const Comm comm(MPI_COMM_WORLD);
+    const MisleadingLinks toy(comm);
+    CutOptions options;
+    options.starts = single_start(2, 0.0);
+    const CutResult misled = co_segmentation_cut(comm, toy.input({}, {}), options);
+    std::vector<int> swapped = toy.truth;
+    for (std::size_t i = 0; i < 16; ++i) swapped[i] = 1 - swapped[i];
+    EXPECT_TRUE(same_partition(misled.part_of_patch, swapped));
+    EXPECT_TRUE(misled.frame.correlation.isZero()) << "nothing asked for it";
+    options.starts[0].graph.placed = true;
+    const CutResult placed = co_segmentation_cut(comm, toy.input({}, {}), options);
+    EXPECT_TRUE(same_partition(placed.part_of_patch, toy.truth));
+    EXPECT_GT(placed.frame.correlation[2], 0.3);
+    options.one_rank_entries = 0;
+    expect_same_result(co_segmentation_cut(comm, toy.input({}, {}), options), placed);
+    const Comm self(MPI_COMM_SELF);
+    const MisleadingLinks alone(self);
+    expect_same_result(co_segmentation_cut(self, alone.input({}, {}), options), placed);
+}
+
+TEST(CoSegmentationCutByPlace, WithoutPlacesIsAnInternalError) {
+    const Comm comm(MPI_COMM_WORLD);
+    const ToyCollection toy = toy_collection(comm, 2, 2, 3, 1);
+    CutOptions options;
+    options.starts = pooled_starts(2, true);
+    try {
+        cut(comm, toy, options);
+        FAIL() << "no throw";
+    } catch (const AgreedError& error) {
+        EXPECT_EQ(error.code(), ExitCode::internal);
+    }
+}
+
 TEST(CoSegmentationCutEdges, OnePartNeedsNoCut) {
     const Comm comm(MPI_COMM_WORLD);
     const ToyCollection toy = toy_collection(comm, 2, 2, 3, 1);

@@ -14,7 +14,7 @@ TEST(KeptCut, ReturnsWhatWasWritten) {
     cut.part_share = {0.5, 0.3, 0.2};
     cut.meshes_with_part = {2, 2, 1};
     cut.starts.resize(2);
-    cut.starts[0].start = {{1.0, 2.0}, 5, MergeRule::linkage};
+    cut.starts[0].start = {{1.0, 2.0, true}, 5, MergeRule::linkage};
     cut.starts[0].terms = {.crease = -0.1,
                            .overlap = 1.0 / 3.0,
                            .explained = {{0.25, 0.5}, {0.125, 0.75}},
@@ -29,12 +29,16 @@ TEST(KeptCut, ReturnsWhatWasWritten) {
     cut.starts[1].unreached = 1;
     cut.starts[1].eigenvalues = {0.99};
     cut.chosen = 1;
+    cut.frame = {{0.1, 0.2, 0.3}, Eigen::Matrix3d::Random(), {0.0, 1.0 / 3.0, 0.9}};
     write_cut(folder.path("cut.h5"), cut);
     const CutResult read = read_cut(folder.path("cut.h5"));
     EXPECT_EQ(read.part_of_patch, cut.part_of_patch);
     EXPECT_EQ(read.part_share, cut.part_share);
     EXPECT_EQ(read.meshes_with_part, cut.meshes_with_part);
     EXPECT_EQ(read.chosen, cut.chosen);
+    EXPECT_EQ(read.frame.mean, cut.frame.mean);
+    EXPECT_EQ(read.frame.directions, cut.frame.directions);
+    EXPECT_EQ(read.frame.correlation, cut.frame.correlation);
     ASSERT_EQ(read.starts.size(), cut.starts.size());
     for (std::size_t k = 0; k < cut.starts.size(); ++k) {
         const StartOutcome& a = read.starts[k];

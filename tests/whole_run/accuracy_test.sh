@@ -47,6 +47,8 @@ bench "${both[@]:0:2}" --sets tables_1 --seeds 1 2 >"$work/third"
 # generated collections
 bench --generated 2 table goblet --seeds 1 --presets "default $quick" --out "$work/made.json" --table "$work/made.md" >"$work/log"
 grep -q "^| generated_goblet | 3 |" "$work/made.md" || fail "generated collections: $(cat "$work/made.md")"
+bench --generated 2 table --turned --seeds 1 --presets "default $quick" --out "$work/turned.json" --table "$work/turned.md" >"$work/log"
+grep -q "^| generated_table (turned) | 2 |" "$work/turned.md" || fail "turned collections: $(cat "$work/turned.md")"
 refuses "an unknown family" 1 "no family spoon" bench --generated 2 spoon
 
 # the Princeton layout: cups (21..40) whose annotators are the truth, and one who saw a single segment
