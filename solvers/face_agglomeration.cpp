@@ -1,11 +1,11 @@
 #include "solvers/face_agglomeration.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
-#include <queue>
-#include <tuple>
+#include <span>
 #include <utility>
+
+#include "solvers/merge_queue.hpp"
 
 namespace coseg {
 
@@ -16,33 +16,105 @@ struct Contact {
     double weight;
 };
 
-using Contacts = std::vector<Contact>;  // ascending by group
+/// The lists of what each group touches, ascending by group, in one array: a list of its own in every group would cost
+/// more in allocations than all merges do.
+class ContactLists {
+  public:
+    explicit ContactLists(const WeightedGraph& graph);
+    [[nodiscard]] std::span<const Contact> of(int group) const {
+        const Place& place = places_[static_cast<std::size_t>(group)];
+        return {contacts_.data() + place.begin, static_cast<std::size_t>(place.size)};
+    }
+    void unite(int a, int b);
+    void redirect(int neighbor, int from, int to);
 
-/// The best merge of one group, its owner, when it was pushed.
-struct MergeCandidate {
-    double change;
-    int group_a, group_b;  // group_a < group_b
-    int version_a, version_b;
-    int owner;  // group_a or group_b
+  private:
+    struct Place {
+        std::size_t begin;
+        int size;
+        int room;
+    };
+    void merge_both(int a, int b);
+    std::vector<Contact> contacts_;
+    std::vector<Place> places_;
+    std::vector<Contact> both_;  // scratch of unite
 };
 
-bool is_better(const MergeCandidate& x, const MergeCandidate& y) {
-    return std::tie(x.change, x.group_a, x.group_b) < std::tie(y.change, y.group_a, y.group_b);
+ContactLists::ContactLists(const WeightedGraph& graph) {
+    contacts_.reserve(2 * graph.neighbors.size());
+    for (std::size_t k = 0; k < graph.neighbors.size(); ++k)
+        contacts_.push_back({graph.neighbors[k], graph.weights[k]});
+    places_.reserve(graph.mass.size());
+    for (std::size_t v = 0; v < graph.mass.size(); ++v) {
+        const int size = graph.offsets[v + 1] - graph.offsets[v];
+        places_.push_back({static_cast<std::size_t>(graph.offsets[v]), size, size});
+    }
 }
 
-struct LaterCandidate {
-    bool operator()(const MergeCandidate& x, const MergeCandidate& y) const { return is_better(y, x); }
+/// Fills both_ with the contacts of a and b to other groups.
+void ContactLists::merge_both(int a, int b) {
+    both_.clear();
+    const std::span<const Contact> x = of(a);
+    const std::span<const Contact> y = of(b);
+    auto j = y.begin();
+    const auto take = [&](const Contact& c) {
+        if (c.group != a && c.group != b) both_.push_back(c);
+    };
+    for (const Contact& c : x) {
+        while (j != y.end() && j->group < c.group) take(*j++);
+        take(c);
+        if (j == y.end() || j->group != c.group) continue;
+        both_.back().weight += j->weight;
+        ++j;
+    }
+    while (j != y.end()) take(*j++);
+}
+
+/// What a and b touch, a touches, and b nothing.
+void ContactLists::unite(int a, int b) {
+    merge_both(a, b);
+    Place& place = places_[static_cast<std::size_t>(a)];
+    const int size = static_cast<int>(both_.size());
+    if (size > place.room) {
+        place.begin = contacts_.size();
+        place.room = 2 * size;
+        contacts_.resize(contacts_.size() + static_cast<std::size_t>(place.room));
+    }
+    place.size = size;
+    std::copy(both_.begin(), both_.end(), contacts_.begin() + static_cast<std::ptrdiff_t>(place.begin));
+    places_[static_cast<std::size_t>(b)].size = 0;
+}
+
+/// In the neighbour's list, what it shared with `from` it now shares with `to`, which is the lower number.
+void ContactLists::redirect(int neighbor, int from, int to) {
+    Place& place = places_[static_cast<std::size_t>(neighbor)];
+    Contact* const list = contacts_.data() + place.begin;
+    int old = 0;
+    while (list[old].group != from) ++old;
+    const double weight = list[old].weight;
+    int target = old;
+    while (target > 0 && list[target - 1].group >= to) --target;
+    if (list[target].group == to) {
+        list[target].weight += weight;
+        std::copy(list + old + 1, list + place.size, list + old);
+        --place.size;
+    } else {
+        std::copy_backward(list + target, list + old, list + old + 1);
+        list[target] = {to, weight};
+    }
+}
+
+struct Group {
+    double mass;
+    double cut;      // weight of the boundary
+    double density;  // cut / mass
+    int version;     // counts the merges; -1 once it is part of another
 };
-
-auto find_contact(Contacts& contacts, int group) {
-    return std::lower_bound(contacts.begin(), contacts.end(), group,
-                            [](const Contact& c, int g) { return c.group < g; });
-}
 
 /// The groups while they grow; a group keeps the number of its lowest node.
 ///
-/// The heap holds one candidate a group. What two groups would change is other only after one of them has grown, and a
-/// group that has grown pushes its best candidate anew; so the best pair of all is the candidate of whichever of its
+/// The queue holds one candidate a group. What two groups would change is other only after one of them has grown, and a
+/// group that has grown takes its best candidate anew; so the best pair of all is the candidate of whichever of its
 /// groups grew last, unless that group's best partner has grown since. Such a candidate surfaces before any worse one,
 /// and is then replaced.
 class Agglomeration {
@@ -52,126 +124,91 @@ class Agglomeration {
     [[nodiscard]] std::vector<int> numbered_groups();
 
   private:
-    [[nodiscard]] MergeCandidate candidate(int owner, const Contact& contact) const;
-    void push_best(int owner);
-    [[nodiscard]] bool is_current(int group, int version) const;
+    [[nodiscard]] double change(int a, int b, double shared) const;
+    [[nodiscard]] MergeCandidate best_of(int owner, std::span<const Contact> contacts) const;
+    void renew_candidate(int owner);
     void merge(int a, int b);
-    void unite_contacts(int a, int b);
-    void redirect(int neighbor, int from, int to);
     int root(int node);
 
-    std::vector<double> mass_;
-    std::vector<double> cut_;
-    std::vector<Contacts> contacts_;
-    std::vector<int> version_;  // counts a group's merges; -1 once it is part of another
+    std::vector<Group> groups_;
+    ContactLists contacts_;
     std::vector<int> parent_;
-    Contacts both_;  // scratch of unite_contacts
-    std::priority_queue<MergeCandidate, std::vector<MergeCandidate>, LaterCandidate> candidates_;
-    int groups_;
+    MergeQueue candidates_;
+    int count_;
 };
 
 Agglomeration::Agglomeration(const WeightedGraph& graph)
-    : mass_(graph.mass),
-      cut_(graph.mass.size(), 0.0),
-      contacts_(graph.mass.size()),
-      version_(graph.mass.size(), 0),
+    : contacts_(graph),
       parent_(graph.mass.size()),
-      groups_(graph.node_count()) {
+      candidates_(graph.node_count()),
+      count_(graph.node_count()) {
     std::iota(parent_.begin(), parent_.end(), 0);
-    for (std::size_t v = 0; v < mass_.size(); ++v) {
-        for (auto k = static_cast<std::size_t>(graph.offsets[v]);
-             k < static_cast<std::size_t>(graph.offsets[v + 1]); ++k) {
-            contacts_[v].push_back({graph.neighbors[k], graph.weights[k]});
-            cut_[v] += graph.weights[k];
-        }
+    groups_.reserve(graph.mass.size());
+    for (int v = 0; v < count_; ++v) {
+        const double mass = graph.mass[static_cast<std::size_t>(v)];
+        double cut = 0.0;
+        for (const Contact& c : contacts_.of(v)) cut += c.weight;
+        groups_.push_back({mass, cut, cut / mass, 0});
     }
-    for (int v = 0; v < groups_; ++v) push_best(v);
+    for (int v = 0; v < count_; ++v) renew_candidate(v);
 }
 
-MergeCandidate Agglomeration::candidate(int owner, const Contact& contact) const {
-    const auto i = static_cast<std::size_t>(std::min(owner, contact.group));
-    const auto j = static_cast<std::size_t>(std::max(owner, contact.group));
-    const double change = (cut_[i] + cut_[j] - 2.0 * contact.weight) / (mass_[i] + mass_[j]) -
-                          cut_[i] / mass_[i] - cut_[j] / mass_[j];
-    return {change, static_cast<int>(i), static_cast<int>(j), version_[i], version_[j], owner};
+/// Of the sum over groups of cut / mass, if a and b were merged; a < b, so that both see the same rounding.
+double Agglomeration::change(int a, int b, double shared) const {
+    const Group& x = groups_[static_cast<std::size_t>(a)];
+    const Group& y = groups_[static_cast<std::size_t>(b)];
+    return (x.cut + y.cut - 2.0 * shared) / (x.mass + y.mass) - x.density - y.density;
 }
 
-void Agglomeration::push_best(int owner) {
-    const Contacts& contacts = contacts_[static_cast<std::size_t>(owner)];
-    if (contacts.empty()) return;
-    MergeCandidate best = candidate(owner, contacts.front());
+MergeCandidate Agglomeration::best_of(int owner, std::span<const Contact> contacts) const {
+    MergeCandidate best;
     for (const Contact& c : contacts) {
-        const MergeCandidate other = candidate(owner, c);
-        if (is_better(other, best)) best = other;
+        const auto [a, b] = std::minmax(owner, c.group);
+        const MergeCandidate other{change(a, b, c.weight), a, b, owner, 0};
+        if (best.owner < 0 || is_better(other, best)) best = other;
     }
-    candidates_.push(best);
+    const int partner = best.partner();
+    best.partner_version = groups_[static_cast<std::size_t>(partner)].version;
+    return best;
 }
 
-bool Agglomeration::is_current(int group, int version) const {
-    return version_[static_cast<std::size_t>(group)] == version;
+void Agglomeration::renew_candidate(int owner) {
+    const std::span<const Contact> contacts = contacts_.of(owner);
+    if (contacts.empty())
+        candidates_.remove(owner);
+    else
+        candidates_.set(best_of(owner, contacts));
 }
 
 void Agglomeration::merge_down_to(int target) {
-    while (groups_ > target && !candidates_.empty()) {
+    while (count_ > target && !candidates_.empty()) {
         const MergeCandidate best = candidates_.top();
-        candidates_.pop();
-        const bool a_stands = is_current(best.group_a, best.version_a);
-        const bool b_stands = is_current(best.group_b, best.version_b);
-        if (a_stands && b_stands)
+        const Group& partner = groups_[static_cast<std::size_t>(best.partner())];
+        if (partner.version == best.partner_version)
             merge(best.group_a, best.group_b);
-        else if (best.owner == best.group_a ? a_stands : b_stands)
-            push_best(best.owner);
+        else
+            renew_candidate(best.owner);
     }
 }
 
 void Agglomeration::merge(int a, int b) {
-    const auto i = static_cast<std::size_t>(a);
-    const auto j = static_cast<std::size_t>(b);
-    for (const Contact& c : contacts_[j]) {
-        if (c.group != a) redirect(c.group, b, a);
+    for (const Contact& c : contacts_.of(b)) {
+        if (c.group != a) contacts_.redirect(c.group, b, a);
     }
-    unite_contacts(a, b);
-    mass_[i] += mass_[j];
+    contacts_.unite(a, b);
+    Group& grown = groups_[static_cast<std::size_t>(a)];
+    Group& absorbed = groups_[static_cast<std::size_t>(b)];
+    grown.mass += absorbed.mass;
     // Summed anew: cut_a + cut_b - 2 c_ab would carry rounding errors from merge to merge.
-    cut_[i] = 0.0;
-    for (const Contact& c : contacts_[i]) cut_[i] += c.weight;
-    ++version_[i];
-    version_[j] = -1;
-    parent_[j] = a;
-    --groups_;
-    push_best(a);
-}
-
-void Agglomeration::unite_contacts(int a, int b) {
-    Contacts& x = contacts_[static_cast<std::size_t>(a)];
-    Contacts& y = contacts_[static_cast<std::size_t>(b)];
-    both_.clear();
-    std::merge(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(both_),
-               [](const Contact& p, const Contact& q) { return p.group < q.group; });
-    x.clear();
-    y = {};
-    for (const Contact& c : both_) {
-        if (c.group == a || c.group == b) continue;
-        if (!x.empty() && x.back().group == c.group) {
-            x.back().weight += c.weight;
-        } else {
-            x.push_back(c);
-        }
-    }
-}
-
-/// In the neighbour's list, what it shared with `from` it now shares with `to`.
-void Agglomeration::redirect(int neighbor, int from, int to) {
-    Contacts& contacts = contacts_[static_cast<std::size_t>(neighbor)];
-    const auto old = find_contact(contacts, from);
-    const double weight = old->weight;
-    contacts.erase(old);
-    const auto place = find_contact(contacts, to);
-    if (place != contacts.end() && place->group == to) {
-        place->weight += weight;
-    } else {
-        contacts.insert(place, {to, weight});
-    }
+    grown.cut = 0.0;
+    for (const Contact& c : contacts_.of(a)) grown.cut += c.weight;
+    grown.density = grown.cut / grown.mass;
+    ++grown.version;
+    absorbed.version = -1;
+    parent_[static_cast<std::size_t>(b)] = a;
+    --count_;
+    candidates_.remove(b);
+    renew_candidate(a);
 }
 
 int Agglomeration::root(int node) {
@@ -184,9 +221,9 @@ int Agglomeration::root(int node) {
 }
 
 std::vector<int> Agglomeration::numbered_groups() {
-    std::vector<int> group(mass_.size(), -1);
+    std::vector<int> group(parent_.size(), -1);
     int count = 0;
-    for (std::size_t v = 0; v < mass_.size(); ++v) {
+    for (std::size_t v = 0; v < parent_.size(); ++v) {
         const int lowest = root(static_cast<int>(v));  // <= v, so numbered before its other nodes
         group[v] = lowest == static_cast<int>(v) ? count++ : group[static_cast<std::size_t>(lowest)];
     }
