@@ -110,11 +110,22 @@ COSEG_VECTOR_CLONES void add_angle_bins(const Thresholds& thresholds, const floa
     }
 }
 
-/// Writes `scale` times the samples' weight in each bin.
-void write_context(const Eigen::VectorXi& bin, const Eigen::VectorXd& weight, float scale, float* context) {
-    std::array<double, shape_context_bins> mass{};
-    for (Eigen::Index k = 0; k < bin.size(); ++k) mass[static_cast<std::size_t>(bin[k])] += weight[k];
-    for (std::size_t b = 0; b < mass.size(); ++b) context[b] = scale * static_cast<float>(mass[b]);
+/// Per sample its bin against the face's normal, and against its own.
+using BinPair = std::array<Eigen::VectorXi, 2>;
+
+/// Writes `scale` times the samples' weight in each bin, of one kind after the other. Both are added up in one loop: the
+/// additions to one bin wait for each other, often those to the next one.
+void write_contexts(const BinPair& bin, const Eigen::VectorXd& weight, ShapeContextNormal normal, float scale,
+                    float* context) {
+    std::array<std::array<double, shape_context_bins>, 2> mass{};
+    for (Eigen::Index k = 0; k < weight.size(); ++k) {
+        mass[0][static_cast<std::size_t>(bin[0][k])] += weight[k];
+        mass[1][static_cast<std::size_t>(bin[1][k])] += weight[k];
+    }
+    for (const std::size_t kind : {0U, 1U}) {
+        if (normal == (kind == 0 ? ShapeContextNormal::sample : ShapeContextNormal::face)) continue;
+        for (const double in_bin : mass[kind]) *context++ = scale * static_cast<float>(in_bin);
+    }
 }
 
 }  // namespace
@@ -128,21 +139,17 @@ Eigen::MatrixXf shape_context(const GeodesicTable& table, const FaceGeometry& ge
     const float scale = both ? 0.5F : 1.0F;
     Projections projections(samples);
     Eigen::VectorXi radial(samples);
-    Eigen::VectorXi bin(samples);
+    BinPair bin{Eigen::VectorXi(samples), Eigen::VectorXi(samples)};
     Eigen::MatrixXf contexts(both ? 2 * shape_context_bins : shape_context_bins, table.distance.cols());
     for (Eigen::Index f = 0; f < contexts.cols(); ++f) {
         project_samples(points, geometry.centroid.col(f).cast<float>(), -geometry.normal.col(f).cast<float>(),
                         projections);
         radial_bins(thresholds, table.distance.data() + f * samples, samples, radial.data());
-        float* context = contexts.data() + f * contexts.rows();
-        for (const auto reference : {ShapeContextNormal::face, ShapeContextNormal::sample}) {
-            if (!both && normal != reference) continue;
-            const bool is_face = reference == ShapeContextNormal::face;
-            add_angle_bins(thresholds, (is_face ? projections.on_face : projections.on_sample).data(),
-                           projections.length.data(), samples, radial.data(), bin.data());
-            write_context(bin, table.sample_weight, scale, context);
-            context += shape_context_bins;
-        }
+        add_angle_bins(thresholds, projections.on_face.data(), projections.length.data(), samples,
+                       radial.data(), bin[0].data());
+        add_angle_bins(thresholds, projections.on_sample.data(), projections.length.data(), samples,
+                       radial.data(), bin[1].data());
+        write_contexts(bin, table.sample_weight, normal, scale, contexts.data() + f * contexts.rows());
     }
     return contexts;
 }
