@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include "src/seeded_random.hpp"
 #include "src/shortest_paths.hpp"
 #include "src/surface_graph.hpp"
+#include "src/vector_clones.hpp"
 
 namespace coseg {
 
@@ -39,6 +41,7 @@ class FarthestFace {
         score_ = score;
     }
     [[nodiscard]] int face() const { return face_; }
+    [[nodiscard]] double score() const { return score_; }
 
   private:
     [[nodiscard]] std::uint64_t hash(int face) const {
@@ -77,23 +80,64 @@ void require_all_reached(const TriMesh& mesh, const std::vector<float>& distance
     }
 }
 
+/// The face whose corners are farthest from all samples, again and again while these distances sink. Of a run of faces
+/// the largest sum seen last is a bound: most runs need not be looked at.
+class RemoteFaces {
+  public:
+    RemoteFaces(const TriMesh& mesh, std::uint64_t seed)
+        : mesh_(mesh),
+          seed_(seed),
+          is_sample_(static_cast<std::size_t>(mesh.face_count()), 0),
+          bound_(static_cast<std::size_t>((mesh.face_count() + run - 1) / run), infinity) {}
+    void leave_out(int face) { is_sample_[static_cast<std::size_t>(face)] = 1; }
+    [[nodiscard]] int farthest(const std::vector<float>& distance);
+
+  private:
+    static constexpr int run = 32;
+    void offer_run(std::size_t number, const std::vector<float>& distance, FarthestFace& farthest);
+    const TriMesh& mesh_;
+    std::uint64_t seed_;
+    std::vector<char> is_sample_;
+    std::vector<float> bound_;  // per run
+};
+
+void RemoteFaces::offer_run(std::size_t number, const std::vector<float>& distance, FarthestFace& farthest) {
+    const int begin = static_cast<int>(number) * run;
+    float largest = -infinity;
+    for (int f = begin; f < std::min(begin + run, mesh_.face_count()); ++f) {
+        if (is_sample_[static_cast<std::size_t>(f)] != 0) continue;
+        const float sum = corner_sum(mesh_, f, distance);
+        largest = std::max(largest, sum);
+        farthest.offer(f, sum);
+    }
+    bound_[number] = largest;
+}
+
+int RemoteFaces::farthest(const std::vector<float>& distance) {
+    FarthestFace farthest(seed_);
+    const auto likeliest =
+        static_cast<std::size_t>(std::max_element(bound_.begin(), bound_.end()) - bound_.begin());
+    offer_run(likeliest, distance, farthest);
+    for (std::size_t r = 0; r < bound_.size(); ++r) {
+        const bool may_hold_it = farthest.face() < 0 || static_cast<double>(bound_[r]) >= farthest.score();
+        if (r != likeliest && may_hold_it) offer_run(r, distance, farthest);
+    }
+    return farthest.face();
+}
+
 std::vector<int> farthest_point_samples(const TriMesh& mesh, const FaceGeometry& geometry,
                                         const SurfaceGraph& graph, int samples, std::uint64_t seed) {
     std::vector<float> nearest(static_cast<std::size_t>(graph.node_count()), infinity);
-    std::vector<char> is_sample(static_cast<std::size_t>(mesh.face_count()), 0);
+    RemoteFaces faces(mesh, seed);
     std::vector<int> sample_face;
     int next = most_remote_face(geometry, seed);
     while (true) {
         sample_face.push_back(next);
-        is_sample[static_cast<std::size_t>(next)] = 1;
+        faces.leave_out(next);
         lower_distances(graph, sources_of_face(mesh, geometry, next), nearest);
         if (sample_face.size() == 1) require_all_reached(mesh, nearest);
         if (static_cast<int>(sample_face.size()) == std::min(samples, mesh.face_count())) return sample_face;
-        FarthestFace farthest(seed);
-        for (int f = 0; f < mesh.face_count(); ++f) {
-            if (is_sample[static_cast<std::size_t>(f)] == 0) farthest.offer(f, corner_sum(mesh, f, nearest));
-        }
-        next = farthest.face();
+        next = faces.farthest(nearest);
     }
 }
 
@@ -154,12 +198,23 @@ void fill_table(const TriMesh& mesh, const FaceGeometry& geometry, const Surface
     }
 }
 
+/// The first of the smallest. The bits of nonnegative floats are ordered as the floats are, and of integers compilers
+/// find the smallest with vectors.
+COSEG_VECTOR_CLONES Eigen::Index smallest_of(const float* distance, int count) {
+    int least = std::numeric_limits<int>::max();
+    for (int k = 0; k < count; ++k) least = std::min(least, std::bit_cast<int>(distance[k]));
+    int first = count;
+    for (int k = 0; k < count; ++k)
+        first = std::min(first, std::bit_cast<int>(distance[k]) == least ? k : count);
+    return first;
+}
+
 Eigen::VectorXd voronoi_weights(const GeodesicTable& table, const FaceGeometry& geometry) {
     const Eigen::Index samples = table.distance.rows();
     Eigen::VectorXd weight = Eigen::VectorXd::Zero(samples);
     for (Eigen::Index f = 0; f < table.distance.cols(); ++f) {
         const float* distance = table.distance.data() + f * samples;
-        weight[std::min_element(distance, distance + samples) - distance] += geometry.area[f];
+        weight[smallest_of(distance, static_cast<int>(samples))] += geometry.area[f];
     }
     double total = 0.0;
     for (Eigen::Index k = 0; k < samples; ++k) total += weight[k];
