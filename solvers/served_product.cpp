@@ -1,6 +1,7 @@
 #include "solvers/served_product.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace coseg {
@@ -42,15 +43,39 @@ ServedProduct::ServedProduct(const Comm& comm, const SparseRows& matrix, GroupBa
     }
 }
 
-void ServedProduct::multiply_rows() {
-    for (std::size_t r = 0; r < rows_local_.size(); ++r) {
-        double sum = 0.0;
-        for (auto k = static_cast<std::size_t>(matrix_.offsets[r]);
-             k < static_cast<std::size_t>(matrix_.offsets[r + 1]); ++k) {
-            sum += matrix_.values[k] * message_[static_cast<std::size_t>(matrix_.columns[k])];
-        }
-        rows_local_[r] = sum;
+/// Adds the row's products from entry `skip` of the row on.
+double ServedProduct::add_products(std::size_t row, std::int64_t skip, double sum) const {
+    for (auto k = static_cast<std::size_t>(matrix_.offsets[row] + skip);
+         k < static_cast<std::size_t>(matrix_.offsets[row + 1]); ++k) {
+        sum += matrix_.values[k] * message_[static_cast<std::size_t>(matrix_.columns[k])];
     }
+    return sum;
+}
+
+/// Side by side as far as the shortest of the rows goes: one sum's additions wait for each other.
+void ServedProduct::multiply_four_rows(std::size_t first) {
+    std::array<const double*, 4> values{};
+    std::array<const int*, 4> columns{};
+    std::array<double, 4> sums{};
+    std::int64_t shared = matrix_.size;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const std::int64_t begin = matrix_.offsets[first + i];
+        values[i] = matrix_.values.data() + begin;
+        columns[i] = matrix_.columns.data() + begin;
+        shared = std::min(shared, matrix_.offsets[first + i + 1] - begin);
+    }
+    for (std::int64_t k = 0; k < shared; ++k) {
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums[i] += values[i][k] * message_[static_cast<std::size_t>(columns[i][k])];
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        rows_local_[first + i] = add_products(first + i, shared, sums[i]);
+}
+
+void ServedProduct::multiply_rows() {
+    const std::size_t whole = rows_local_.size() - rows_local_.size() % 4;
+    for (std::size_t r = 0; r < whole; r += 4) multiply_four_rows(r);
+    for (std::size_t r = whole; r < rows_local_.size(); ++r) rows_local_[r] = add_products(r, 0, 0.0);
 }
 
 void ServedProduct::subtract_balance(const double* x, double* y) {

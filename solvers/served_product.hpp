@@ -47,6 +47,8 @@ class ServedProduct {
   private:
     void release();
     void multiply_rows();
+    void multiply_four_rows(std::size_t first);
+    [[nodiscard]] double add_products(std::size_t row, std::int64_t skip, double sum) const;
     void subtract_balance(const double* x, double* y);
 
     const Comm& comm_;
