@@ -166,35 +166,59 @@ Batch take_batch(const TriMesh& mesh, const FaceGeometry& geometry, const Surfac
     return batch;
 }
 
-void fill_rows(const TriMesh& mesh, const std::vector<PathLanes>& vertex_distance,
-               const std::vector<int>& faces, Eigen::Index first_row, Eigen::MatrixXf& table) {
-    const auto rows = static_cast<Eigen::Index>(faces.size());
+/// Batches whose distances are written to the table together: a face's rows of one batch are one cache line, and lines
+/// that lie far apart are slow to write one by one.
+constexpr std::size_t batches_at_once = 4;
+
+/// The distances of all vertices from one batch of samples.
+struct BatchDistances {
+    std::vector<int> faces;
+    std::vector<PathLanes> of_vertex;
+};
+
+void fill_rows(const TriMesh& mesh, std::span<const BatchDistances> batches, GeodesicTable& table) {
+    const auto first_row = static_cast<Eigen::Index>(table.sample_face.size());
     for (int f = 0; f < mesh.face_count(); ++f) {
-        const PathLanes mean = (vertex_distance[static_cast<std::size_t>(mesh.faces(0, f))] +
-                                vertex_distance[static_cast<std::size_t>(mesh.faces(1, f))] +
-                                vertex_distance[static_cast<std::size_t>(mesh.faces(2, f))]) *
-                               (1.0F / 3.0F);
-        table.col(f).segment(first_row, rows) = mean.head(rows);
+        float* column = table.distance.data() + f * table.distance.rows() + first_row;
+        for (const BatchDistances& batch : batches) {
+            const PathLanes mean = (batch.of_vertex[static_cast<std::size_t>(mesh.faces(0, f))] +
+                                    batch.of_vertex[static_cast<std::size_t>(mesh.faces(1, f))] +
+                                    batch.of_vertex[static_cast<std::size_t>(mesh.faces(2, f))]) *
+                                   (1.0F / 3.0F);
+            const std::size_t rows = batch.faces.size();
+            if (rows == path_lanes)
+                Eigen::Map<PathLanes>{column} = mean;
+            else
+                std::copy_n(mean.data(), rows, column);
+            column += rows;
+        }
     }
-    for (Eigen::Index r = 0; r < rows; ++r) table(first_row + r, faces[static_cast<std::size_t>(r)]) = 0.0F;
+    for (const BatchDistances& batch : batches) {
+        for (const int face : batch.faces) {
+            table.distance(static_cast<Eigen::Index>(table.sample_face.size()), face) = 0.0F;
+            table.sample_face.push_back(face);
+        }
+    }
 }
 
 /// Peels batches off from the far ends of the surface inwards, so that each stays compact.
 void fill_table(const TriMesh& mesh, const FaceGeometry& geometry, const SurfaceGraph& graph,
                 std::vector<int> remaining, GeodesicTable& table) {
     table.distance.resize(static_cast<Eigen::Index>(remaining.size()), mesh.face_count());
-    std::vector<PathLanes> distance;
+    std::array<BatchDistances, batches_at_once> found;
     int start = remaining.front();
     while (!remaining.empty()) {
-        const Batch batch = take_batch(mesh, geometry, graph, start, remaining);
-        std::array<std::vector<PathSource>, path_lanes> sources;
-        for (std::size_t l = 0; l < batch.faces.size(); ++l)
-            sources[l] = sources_of_face(mesh, geometry, batch.faces[l]);
-        path_distances(graph, sources, batch.order, distance);
-        fill_rows(mesh, distance, batch.faces, static_cast<Eigen::Index>(table.sample_face.size()),
-                  table.distance);
-        table.sample_face.insert(table.sample_face.end(), batch.faces.begin(), batch.faces.end());
-        if (!remaining.empty()) start = remaining.front();
+        std::size_t count = 0;
+        for (; count < found.size() && !remaining.empty(); ++count) {
+            const Batch batch = take_batch(mesh, geometry, graph, start, remaining);
+            std::array<std::vector<PathSource>, path_lanes> sources;
+            for (std::size_t l = 0; l < batch.faces.size(); ++l)
+                sources[l] = sources_of_face(mesh, geometry, batch.faces[l]);
+            path_distances(graph, sources, batch.order, found[count].of_vertex);
+            found[count].faces = batch.faces;
+            if (!remaining.empty()) start = remaining.front();
+        }
+        fill_rows(mesh, std::span(found).first(count), table);
     }
 }
 

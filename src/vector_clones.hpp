@@ -19,3 +19,11 @@
 #define COSEG_CHOOSES_WIDTH 0
 #define COSEG_FOR_EVERY_WIDTH
 #endif
+
+/// Before a loop over a small fixed number of lanes: gcc would write it out before it looks for vectors, and then finds none
+/// where a flag is gathered over the lanes.
+#if defined(__GNUC__) && !defined(__clang__)
+#define COSEG_LANES_LOOP _Pragma("GCC unroll 1")
+#else
+#define COSEG_LANES_LOOP
+#endif
