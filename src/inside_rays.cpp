@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -14,15 +13,24 @@ namespace coseg {
 
 namespace {
 
-constexpr int packet = 16;
+constexpr int packet = 8;
 constexpr float nearest = 1e-6F;     // of the extent: below it, single precision cannot tell sides
 constexpr float same_place = 1e-5F;  // of the extent: faces of touching components
+
+using PacketMask = std::array<int, packet>;  // -1 for the rays to be cast, else 0
 
 /// One packet's context: Embree hands it to the filter. `entry`: the nearest face met from outside, per ray.
 struct EntryContext {
     RTCIntersectContext embree;  // must come first
     std::array<float, packet> entry;
 };
+
+/// Positive where ray i of n leaves the solid.
+float along_normal(RTCRayN* ray, RTCHitN* hit, unsigned n, unsigned i) {
+    return RTCRayN_dir_x(ray, n, i) * RTCHitN_Ng_x(hit, n, i) +
+           RTCRayN_dir_y(ray, n, i) * RTCHitN_Ng_y(hit, n, i) +
+           RTCRayN_dir_z(ray, n, i) * RTCHitN_Ng_z(hit, n, i);
+}
 
 /// Keeps hits on faces that point along the ray and notes the others. Traversal tests every face before the
 /// kept hit, so an entry before the exit is always noted.
@@ -31,14 +39,34 @@ void keep_exits(const RTCFilterFunctionNArguments* arguments) {
     const unsigned n = arguments->N;
     for (unsigned i = 0; i < n; ++i) {
         if (arguments->valid[i] == 0) continue;
-        const float along = RTCRayN_dir_x(arguments->ray, n, i) * RTCHitN_Ng_x(arguments->hit, n, i) +
-                            RTCRayN_dir_y(arguments->ray, n, i) * RTCHitN_Ng_y(arguments->hit, n, i) +
-                            RTCRayN_dir_z(arguments->ray, n, i) * RTCHitN_Ng_z(arguments->hit, n, i);
+        const float along = along_normal(arguments->ray, arguments->hit, n, i);
         if (along > 0.0F) continue;
         arguments->valid[i] = 0;
         float& entry = context->entry[RTCRayN_id(arguments->ray, n, i)];
         if (along < 0.0F) entry = std::min(entry, RTCRayN_tfar(arguments->ray, n, i));
     }
+}
+
+bool has_hit(const RTCRayHit8& batch, unsigned i) { return batch.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
+
+/// Leaves in `mask` the rays whose nearest face is no exit, ready to be cast again as far as one may count; false if
+/// there are none.
+bool leave_undecided(RTCRayHit8& batch, PacketMask& mask) {
+    auto* ray = reinterpret_cast<RTCRayN*>(&batch.ray);
+    auto* hit = reinterpret_cast<RTCHitN*>(&batch.hit);
+    bool any = false;
+    for (unsigned i = 0; i < packet; ++i) {
+        const float along = has_hit(batch, i) ? along_normal(ray, hit, packet, i) : 1.0F;
+        if (mask[i] == 0 || along > 0.0F) {
+            mask[i] = 0;
+            continue;
+        }
+        any = true;
+        batch.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        batch.ray.tfar[i] =
+            along < 0.0F ? batch.ray.tfar[i] + 2.0F * same_place : std::numeric_limits<float>::infinity();
+    }
+    return any;
 }
 
 struct DeviceRelease {
@@ -73,12 +101,11 @@ RTCGeometry triangles(RTCDevice device, const TriMesh& mesh, const Eigen::Vector
         Eigen::Map<Eigen::Matrix<unsigned, 3, Eigen::Dynamic>>(corners, 3, mesh.faces.cols()) =
             mesh.faces.cast<unsigned>();
     }
-    rtcSetGeometryIntersectFilterFunction(geometry, keep_exits);
     rtcCommitGeometry(geometry);
     return geometry;
 }
 
-void set_ray(RTCRayHit16& batch, int i, const Eigen::Vector3f& from, const Eigen::Vector3f& direction) {
+void set_ray(RTCRayHit8& batch, int i, const Eigen::Vector3f& from, const Eigen::Vector3f& direction) {
     batch.ray.org_x[i] = from.x();
     batch.ray.org_y[i] = from.y();
     batch.ray.org_z[i] = from.z();
@@ -111,7 +138,7 @@ InsideRays::InsideRays(const TriMesh& mesh) : scene_(std::make_unique<Scene>()) 
     scene_->device.reset(rtcNewDevice("threads=1,set_affinity=0"));
     if (!scene_->device) check(nullptr);
     scene_->scene.reset(rtcNewScene(scene_->device.get()));
-    rtcSetSceneFlags(scene_->scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene_->scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     RTCGeometry geometry = triangles(scene_->device.get(), mesh, scene_->centre, scene_->scale);
     rtcAttachGeometry(scene_->scene.get(), geometry);
     rtcReleaseGeometry(geometry);
@@ -129,22 +156,29 @@ void InsideRays::cast(const Eigen::Vector3d& origin, const Eigen::Matrix3Xd& dir
     const Eigen::Vector3f from = ((origin - scene_->centre) * scene_->scale).cast<float>();
     const int rays = static_cast<int>(directions.cols());
     for (int first = 0; first < rays; first += packet) {
-        alignas(64) RTCRayHit16 batch{};
-        alignas(64) std::array<int, packet> valid{};
+        alignas(32) RTCRayHit8 batch{};
+        alignas(32) PacketMask mask{};
         const int count = std::min(packet, rays - first);
         for (int i = 0; i < count; ++i) {
-            valid[static_cast<std::size_t>(i)] = -1;
+            mask[static_cast<std::size_t>(i)] = -1;
             set_ray(batch, i, from, directions.col(first + i).cast<float>());
         }
         EntryContext context{};
         rtcInitIntersectContext(&context.embree);
         context.entry.fill(std::numeric_limits<float>::infinity());
-        rtcIntersect16(valid.data(), scene_->scene.get(), &context.embree, &batch);
+        rtcIntersect8(mask.data(), scene_->scene.get(), &context.embree, &batch);
+        // Almost every ray leaves by the first face it meets; calling the filter for all of them takes as long as a
+        // third of the traversal.
+        if (leave_undecided(batch, mask)) {
+            context.embree.filter = keep_exits;
+            rtcIntersect8(mask.data(), scene_->scene.get(), &context.embree, &batch);
+        }
         const std::span<double> found = distance.subspan(static_cast<std::size_t>(first));
         for (int i = 0; i < count; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            const float exit = batch.ray.tfar[i];  // infinite if there is none
-            const bool inside = std::isfinite(exit) && exit <= context.entry[k] + same_place;
+            const float exit = batch.ray.tfar[i];
+            const bool inside =
+                has_hit(batch, static_cast<unsigned>(i)) && exit <= context.entry[k] + same_place;
             found[k] = inside ? static_cast<double>(exit) / scene_->scale : 0.0;
         }
     }
