@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "solvers/word_search.hpp"
+#include "src/vector_clones.hpp"
 
 namespace coseg {
 
@@ -34,6 +36,17 @@ WordMoves moves_between(const Eigen::MatrixXf& before, const Eigen::MatrixXf& af
         }
     }
     return moves;
+}
+
+/// Adds each point (dims x n) and a one to the sums of its word (dims + 1 x K).
+COSEG_VECTOR_CLONES void add_points(const float* points, std::span<const int> word, Eigen::Index dims,
+                                    double* sums) {
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        const float* x = points + static_cast<Eigen::Index>(i) * dims;
+        double* sum = sums + word[i] * (dims + 1);
+        for (Eigen::Index d = 0; d < dims; ++d) sum[d] += static_cast<double>(x[d]);
+        sum[dims] += 1.0;
+    }
 }
 
 /// The words of one mesh's points and a lower bound of each point's distance to all other words.
@@ -68,12 +81,7 @@ class MeshAssignment {
     void add_sums(Eigen::Index words, FixedPointSum& totals) const {
         const Eigen::Index dims = mesh_.points->rows();
         Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(dims + 1, words);
-        for (std::size_t i = 0; i < others_.size(); ++i) {
-            const float* x = mesh_.points->data() + static_cast<Eigen::Index>(i) * dims;
-            double* sum = sums.data() + mesh_.word[i] * (dims + 1);
-            for (Eigen::Index d = 0; d < dims; ++d) sum[d] += static_cast<double>(x[d]);
-            sum[dims] += 1.0;
-        }
+        add_points(mesh_.points->data(), mesh_.word, dims, sums.data());
         for (Eigen::Index k = 0; k < sums.size(); ++k)
             totals.add(static_cast<std::size_t>(k), sums.data()[k]);
     }

@@ -21,8 +21,10 @@ void sort_and_add_up(WeightedGraph& graph) {
             run.emplace_back(graph.neighbors[static_cast<std::size_t>(k)],
                              graph.weights[static_cast<std::size_t>(k)]);
         }
-        std::stable_sort(run.begin(), run.end(),
-                         [](const auto& x, const auto& y) { return x.first < y.first; });
+        const auto is_lower = [](const auto& x, const auto& y) { return x.first < y.first; };
+        // Edges of a dual graph come in order, and a stable sort allocates even where there is nothing to do.
+        if (!std::is_sorted(run.begin(), run.end(), is_lower))
+            std::stable_sort(run.begin(), run.end(), is_lower);
         graph.offsets[v] = static_cast<int>(write);
         for (std::size_t k = 0; k < run.size(); ++k) {
             if (k > 0 && run[k].first == run[k - 1].first) {
