@@ -50,11 +50,20 @@ std::vector<RowMoments> row_moments(const Comm& comm, const SparseRows& links, c
     return moments;
 }
 
-/// Logarithm of p(x, y) / (p(x) p(y)) for normal x and y of spread 1 with correlation r.
-double log_likelihood_ratio(double x, double y, double r) {
-    const double rest = 1.0 - r * r;
-    return -0.5 * std::log(rest) - (r * r * (x * x + y * y) - 2.0 * r * x * y) / (2.0 * rest);
-}
+/// The density p of normal x and y of spread 1 with correlation r; what does not depend on them is found once.
+class PairDensity {
+  public:
+    explicit PairDensity(double r) : r_(r), rest_(1.0 - r * r), at_centre_(-0.5 * std::log(rest_)) {}
+    /// Logarithm of p(x, y) / (p(x) p(y)).
+    [[nodiscard]] double log_ratio(double x, double y) const {
+        return at_centre_ - (r_ * r_ * (x * x + y * y) - 2.0 * r_ * x * y) / (2.0 * rest_);
+    }
+
+  private:
+    double r_;
+    double rest_;
+    double at_centre_;
+};
 
 }  // namespace
 
@@ -85,6 +94,9 @@ PlaceFrame place_frame(const Comm& comm, const SparseRows& links, const Eigen::M
 
 void weigh_by_place(const PlaceFrame& frame, const Eigen::Matrix3Xd& places, const std::vector<int>& mesh_of,
                     SparseRows& links) {
+    const std::array<PairDensity, 3> along{PairDensity(frame.correlation[0]),
+                                           PairDensity(frame.correlation[1]),
+                                           PairDensity(frame.correlation[2])};
     const Eigen::Matrix3Xd in_frame = frame.directions.transpose() * (places.colwise() - frame.mean);
     for (std::size_t r = 0; r < static_cast<std::size_t>(links.local_rows()); ++r) {
         const auto x =
@@ -92,7 +104,7 @@ void weigh_by_place(const PlaceFrame& frame, const Eigen::Matrix3Xd& places, con
         for_each_link(links, mesh_of, r, [&](std::size_t k, int j) {
             double logarithm = 0.0;
             for (int a = 0; a < 3; ++a)
-                logarithm += log_likelihood_ratio(x[a], in_frame(a, j), frame.correlation[a]);
+                logarithm += along[static_cast<std::size_t>(a)].log_ratio(x[a], in_frame(a, j));
             links.values[k] *= std::exp(std::max(logarithm, least_logarithm));
         });
     }

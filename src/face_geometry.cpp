@@ -27,13 +27,16 @@ FaceGeometry face_geometry(const TriMesh& mesh) {
     return geometry;
 }
 
+Eigen::Vector3d surface_centroid(const FaceGeometry& geometry) {
+    return geometry.centroid * geometry.area / geometry.total_area;
+}
+
 void scale_to_unit_area(TriMesh& mesh) {
     const FaceGeometry geometry = face_geometry(mesh);
     if (!(geometry.total_area > 0.0) || !std::isfinite(geometry.total_area)) {
         throw Error(ExitCode::input, "the mesh has no surface area; check the coordinates and their unit");
     }
-    const Eigen::Vector3d centre = geometry.centroid * geometry.area / geometry.total_area;
-    mesh.vertices.colwise() -= centre;
+    mesh.vertices.colwise() -= surface_centroid(geometry);
     mesh.vertices /= std::sqrt(geometry.total_area);
 }
 

@@ -16,6 +16,9 @@ struct FaceGeometry {
 
 FaceGeometry face_geometry(const TriMesh& mesh);
 
+/// The centroid of the surface. Its total area must be positive.
+Eigen::Vector3d surface_centroid(const FaceGeometry& geometry);
+
 /// Moves the area-weighted centroid to the origin and scales to total area 1.
 /// Throws Error(input) if the mesh has no area.
 void scale_to_unit_area(TriMesh& mesh);

@@ -9,7 +9,7 @@ namespace coseg {
 
 Eigen::Matrix3Xd patch_places(const FaceGeometry& geometry, const std::vector<int>& patch_of_face,
                               int count) {
-    const Eigen::Vector3d centre = geometry.centroid * geometry.area / geometry.total_area;
+    const Eigen::Vector3d centre = surface_centroid(geometry);
     Eigen::Matrix3Xd places = Eigen::Matrix3Xd::Zero(3, count);
     double squares = 0.0;
     for (std::size_t f = 0; f < patch_of_face.size(); ++f) {

@@ -91,7 +91,7 @@ double mean_distance(const SurfaceGraph& surface, const std::vector<DualEdge>& f
 }
 
 double mean_radius(const FaceGeometry& geometry) {
-    const Eigen::Vector3d centre = geometry.centroid * geometry.area / geometry.total_area;
+    const Eigen::Vector3d centre = surface_centroid(geometry);
     return (geometry.centroid.colwise() - centre).colwise().norm().dot(geometry.area) / geometry.total_area;
 }
 
