@@ -21,13 +21,13 @@
 #include <thread>
 
 #include "bench/mpi_program.hpp"
-#include "solvers/blas.hpp"
-#include "solvers/co_segmentation_cut.hpp"
-#include "solvers/mesh_links.hpp"
-#include "solvers/pass_clock.hpp"
-#include "solvers/petsc_session.hpp"
-#include "solvers/subspace_solver.hpp"
-#include "src/seeded_random.hpp"
+#include "solvers/numeric/blas.hpp"
+#include "solvers/partition/co_segmentation_cut.hpp"
+#include "solvers/petsc/petsc_session.hpp"
+#include "solvers/row_scope/pass_clock.hpp"
+#include "solvers/subspace/mesh_links.hpp"
+#include "solvers/variants/subspace_solver.hpp"
+#include "src/base/seeded_random.hpp"
 
 namespace {
 

@@ -15,9 +15,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/mpi_program.hpp"
-#include "solvers/pass_clock.hpp"
-#include "solvers/subspace_solver.hpp"
-#include "src/seeded_random.hpp"
+#include "solvers/row_scope/pass_clock.hpp"
+#include "solvers/variants/subspace_solver.hpp"
+#include "src/base/seeded_random.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "mpi_drivers/run_options.hpp"
-#include "src/comm.hpp"
+#include "mpi_drivers/options/run_options.hpp"
+#include "src/parallel/comm.hpp"
 
 namespace coseg {
 

@@ -14,14 +14,14 @@
 #include <string_view>
 #include <vector>
 
-#include "mpi_drivers/command.hpp"
-#include "mpi_drivers/config_file.hpp"
-#include "mpi_drivers/help_pages.hpp"
-#include "mpi_drivers/self_launch.hpp"
-#include "mpi_drivers/stop_request.hpp"
-#include "mpi_drivers/version.hpp"
-#include "src/error.hpp"
-#include "src/spelling.hpp"
+#include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/config_file.hpp"
+#include "mpi_drivers/options/help_pages.hpp"
+#include "mpi_drivers/process/self_launch.hpp"
+#include "mpi_drivers/process/stop_request.hpp"
+#include "mpi_drivers/process/version.hpp"
+#include "src/base/error.hpp"
+#include "src/base/spelling.hpp"
 
 namespace {
 

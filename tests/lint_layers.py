@@ -9,7 +9,7 @@ import re
 import sys
 import tempfile
 
-# The folders whose headers each folder may include.
+# The layers whose headers each layer may include.
 MAY_INCLUDE = {
     "src": {"src"},
     "io": {"io", "src"},
@@ -18,6 +18,57 @@ MAY_INCLUDE = {
     "tests": {"tests", "mpi_drivers", "io", "solvers", "src"},
     "bench": {"bench", "mpi_drivers", "io", "solvers", "src"},
 }
+# The rooms whose headers each room may include, beside its own. Drivers join what the other layers offer, so that for them only
+# rooms of their own layer are listed. A room stands below those that it includes: the table has no cycle.
+ROOMS = {
+    "src/base": (),
+    "src/parallel": ("src/base",),
+    "src/mesh": ("src/base",),
+    "src/repair": ("src/base", "src/mesh"),
+    "src/remesh": ("src/base", "src/mesh"),
+    "src/geodesics": ("src/base", "src/mesh"),
+    "src/descriptors": ("src/base", "src/mesh", "src/geodesics"),
+    "src/patches": ("src/base", "src/mesh"),
+    "src/histograms": ("src/base", "src/parallel"),
+    "src/metrics": ("src/base", "src/mesh", "src/geodesics"),
+    "src/pictures": ("src/base", "src/mesh"),
+    "src/families": ("src/base", "src/mesh", "src/remesh"),
+    "io/files": ("src/base",),
+    "io/mesh_files": ("io/files", "src/base", "src/mesh", "src/pictures"),
+    "io/data_files": ("io/files", "src/base"),
+    "io/folders": ("io/files", "src/base"),
+    "io/reports": ("io/files", "src/base", "src/parallel", "src/pictures"),
+    "solvers/petsc": ("src/base", "src/parallel"),
+    "solvers/numeric": ("src/base", "src/parallel"),
+    "solvers/subspace": ("solvers/numeric", "src/base", "src/parallel", "src/histograms"),
+    "solvers/row_scope": ("solvers/subspace", "solvers/numeric", "src/parallel"),
+    "solvers/mesh_scope": ("solvers/subspace", "solvers/numeric", "src/base", "src/parallel"),
+    "solvers/variants": ("solvers/row_scope", "solvers/mesh_scope", "solvers/subspace", "solvers/numeric", "src/base",
+                         "src/parallel"),
+    "solvers/oversegmentation": ("src/base", "src/mesh"),
+    "solvers/kmeans": ("solvers/numeric", "src/base", "src/parallel", "src/histograms"),
+    "solvers/affinity": ("solvers/subspace", "src/base", "src/parallel"),
+    "solvers/spectral": ("solvers/affinity", "solvers/petsc", "src/base", "src/parallel", "src/histograms"),
+    "solvers/boundaries": ("src/base", "src/mesh"),
+    "solvers/partition": ("solvers/affinity", "solvers/spectral", "solvers/boundaries", "solvers/oversegmentation",
+                          "solvers/subspace", "src/base", "src/mesh", "src/parallel"),
+    "mpi_drivers/process": (),
+    "mpi_drivers/options": (),
+    "mpi_drivers/describe": ("mpi_drivers/process", "mpi_drivers/options"),
+    "mpi_drivers/optimise": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe"),
+    "mpi_drivers/partition": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise"),
+    "mpi_drivers/finished_runs": ("mpi_drivers/describe",),
+    "mpi_drivers/results": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
+                            "mpi_drivers/partition", "mpi_drivers/finished_runs"),
+    # co_segmentation, the list of the stages; main.cpp belongs to no room.
+    "mpi_drivers": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
+                    "mpi_drivers/partition", "mpi_drivers/results"),
+    "mpi_drivers/commands": ("mpi_drivers", "mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe",
+                             "mpi_drivers/optimise", "mpi_drivers/partition", "mpi_drivers/results",
+                             "mpi_drivers/finished_runs"),
+}
+PROGRAM = "mpi_drivers/main.cpp"
+MOST_UNITS = 25
 LIBRARY = ("src", "io", "solvers", "mpi_drivers")
 KNOWS_PETSC = ("solvers", "mpi_drivers", "tests", "bench")
 PETSC = re.compile(r"(petsc|slepc)\w*\.h$|petsc/|slepc/")
@@ -54,11 +105,46 @@ def included_header_violation(folder, path, quoted, angled):
     return f"<{angled}> must stay inside a .cpp file"
 
 
+def room_violation(path, quoted):
+    """A sentence, or None: whether the room of the file `path` may include the header `quoted`."""
+    room, other = os.path.dirname(path), os.path.dirname(quoted)
+    if path == PROGRAM or room.split("/")[0] not in LIBRARY or other == room:
+        return None
+    if room not in ROOMS:
+        return f"{room}/ is no room: add it to ROOMS in tests/lint_layers.py, and to docs/architecture.md"
+    foreign = other.split("/")[0] != room.split("/")[0]
+    if other in ROOMS[room] or (foreign and room.split("/")[0] == "mpi_drivers"):
+        return None
+    return f"the room {room}/ must not know {other}/"
+
+
+def cycles(rooms):
+    """The rooms from which a way leads back to themselves."""
+    def reached(room, seen):
+        for other in rooms.get(room, ()):
+            if other not in seen:
+                seen.add(other)
+                reached(other, seen)
+        return seen
+    return sorted(room for room in rooms if room in reached(room, set()))
+
+
+def crowded(root):
+    """Folders of the library that hold more than MOST_UNITS units (a header and its source are one)."""
+    for layer in LIBRARY:
+        for place, _, names in sorted(os.walk(os.path.join(root, layer))):
+            units = {name.rsplit(".", 1)[0] for name in names if name.endswith((".cpp", ".hpp"))}
+            if len(units) > MOST_UNITS:
+                yield f"{os.path.relpath(place, root)}:1: {len(units)} units in one folder, {MOST_UNITS} at most: split the room"
+
+
 def without_comments(line):
     return line.split("//")[0]
 
 
-def violations(root):
+def violations(root, rooms=None):
+    yield from (f"tests/lint_layers.py:1: the rooms have a cycle through {room}/" for room in cycles(rooms or ROOMS))
+    yield from crowded(root)
     for folder in sorted(MAY_INCLUDE):
         for place, _, names in sorted(os.walk(os.path.join(root, folder))):
             for name in sorted(names):
@@ -76,6 +162,8 @@ def violations_in(root, folder, file_path):
         include = INCLUDE.match(line)
         if include:
             sentence = included_header_violation(folder, path, *include.groups())
+            if not sentence and include.group(1):
+                sentence = room_violation(path, include.group(1))
             if sentence:
                 yield f"{path}:{number}: {sentence}"
         for pattern, folders, sentence in FORBIDDEN:
@@ -84,37 +172,42 @@ def violations_in(root, folder, file_path):
 
 
 CLEAN_TREE = {
-    "src/a.hpp": '#pragma once\n// MPI_COMM_WORLD is named in a comment only\n#include <Eigen/Core>\n#include <mpi.h>\n#include <vector>\n',
-    "src/a.cpp": '#include "src/a.hpp"\n#include <OpenMesh/Core/IO/MeshIO.hh>\n',
-    "io/b.hpp": '#pragma once\n#include "src/a.hpp"\n',
-    "io/b.cpp": '#include "io/b.hpp"\n#include <nlohmann/json.hpp>\n',
-    "solvers/c.hpp": '#pragma once\n#include <slepceps.h>\n#include "src/a.hpp"\n',
-    "mpi_drivers/d.hpp": '#pragma once\n#include <CLI/CLI.hpp>\n',
-    "mpi_drivers/d.cpp": '#include "io/b.hpp"\n#include "solvers/c.hpp"\nint f() { return MPI_COMM_WORLD; }\n',
-    "tests/unit/e_test.cpp": '#include "mpi_drivers/d.hpp"\n#include "tests/support/f.hpp"\n#include <gtest/gtest.h>\n',
+    "src/mesh/a.hpp": '#pragma once\n// MPI_COMM_WORLD is named in a comment only\n#include <Eigen/Core>\n#include <mpi.h>\n#include <vector>\n',
+    "src/mesh/a.cpp": '#include "src/mesh/a.hpp"\n#include <OpenMesh/Core/IO/MeshIO.hh>\n',
+    "io/files/b.hpp": '#pragma once\n#include "src/base/g.hpp"\n',
+    "io/files/b.cpp": '#include "io/files/b.hpp"\n#include <nlohmann/json.hpp>\n',
+    "solvers/numeric/c.hpp": '#pragma once\n#include <slepceps.h>\n#include "src/base/g.hpp"\n',
+    "mpi_drivers/options/d.hpp": '#pragma once\n#include <CLI/CLI.hpp>\n',
+    "mpi_drivers/options/d.cpp": '#include "io/files/b.hpp"\n#include "solvers/numeric/c.hpp"\nint f() { return MPI_COMM_WORLD; }\n',
+    "tests/unit/e_test.cpp": '#include "mpi_drivers/options/d.hpp"\n#include "tests/support/f.hpp"\n#include <gtest/gtest.h>\n',
     "tests/support/f.hpp": '#pragma once\n',
+    "src/base/g.hpp": '#pragma once\n',
+    "mpi_drivers/main.cpp": '#include "mpi_drivers/options/d.hpp"\n',
 }
 # file -> a text that breaks exactly one rule, and a piece of the sentence that must come out.
 BROKEN_FILES = (
-    ("src/x.cpp", '#include "solvers/c.hpp"\n', "src/ must not know solvers/"),
-    ("src/x.cpp", '#include "io/b.hpp"\n', "src/ must not know io/"),
-    ("io/x.cpp", '#include "solvers/c.hpp"\n', "io/ must not know solvers/"),
-    ("solvers/x.cpp", '#include "io/b.hpp"\n', "solvers/ must not know io/"),
-    ("solvers/x.cpp", '#include "mpi_drivers/d.hpp"\n', "solvers/ must not know mpi_drivers/"),
-    ("mpi_drivers/x.cpp", '#include "tests/support/f.hpp"\n', "mpi_drivers/ must not know tests/"),
-    ("src/x.cpp", '#include "a.hpp"\n', "not rooted"),
-    ("src/x.cpp", '#include <src/a.hpp>\n', "quotation marks"),
-    ("src/x.cpp", '#include <petscmat.h>\n', "must not know PETSc"),
-    ("io/x.hpp", '#pragma once\n#include <slepceps.h>\n', "must not know PETSc"),
-    ("io/x.hpp", '#pragma once\n#include <OpenMesh/Core/IO/MeshIO.hh>\n', "inside a .cpp"),
-    ("solvers/x.hpp", '#pragma once\n#include <boost/graph/adjacency_list.hpp>\n', "inside a .cpp"),
-    ("src/x.hpp", '#pragma once\n#include <embree3/rtcore.h>\n', "inside a .cpp"),
-    ("src/x.hpp", '#pragma once\n#include <CLI/CLI.hpp>\n', "inside a .cpp"),
-    ("src/x.hpp", "int f();\n", "#pragma once"),
-    ("solvers/x.cpp", "auto c = MPI_COMM_WORLD;\n", "world communicator"),
-    ("src/x.cpp", "std::uniform_real_distribution<double> d;\n", "seeded_random"),
-    ("io/x.cpp", "int i = rand();\n", "seeded_random"),
-    ("src/x.cpp", "using namespace std;\n", "namespace"),
+    ("src/mesh/x.cpp", '#include "solvers/numeric/c.hpp"\n', "src/ must not know solvers/"),
+    ("src/mesh/x.cpp", '#include "io/files/b.hpp"\n', "src/ must not know io/"),
+    ("io/files/x.cpp", '#include "solvers/numeric/c.hpp"\n', "io/ must not know solvers/"),
+    ("solvers/numeric/x.cpp", '#include "io/files/b.hpp"\n', "solvers/ must not know io/"),
+    ("solvers/numeric/x.cpp", '#include "mpi_drivers/options/d.hpp"\n', "solvers/ must not know mpi_drivers/"),
+    ("mpi_drivers/options/x.cpp", '#include "tests/support/f.hpp"\n', "mpi_drivers/ must not know tests/"),
+    ("src/mesh/x.cpp", '#include "a.hpp"\n', "not rooted"),
+    ("src/mesh/x.cpp", '#include <src/mesh/a.hpp>\n', "quotation marks"),
+    ("src/mesh/x.cpp", '#include <petscmat.h>\n', "must not know PETSc"),
+    ("io/files/x.hpp", '#pragma once\n#include <slepceps.h>\n', "must not know PETSc"),
+    ("io/files/x.hpp", '#pragma once\n#include <OpenMesh/Core/IO/MeshIO.hh>\n', "inside a .cpp"),
+    ("solvers/numeric/x.hpp", '#pragma once\n#include <boost/graph/adjacency_list.hpp>\n', "inside a .cpp"),
+    ("src/mesh/x.hpp", '#pragma once\n#include <embree3/rtcore.h>\n', "inside a .cpp"),
+    ("src/mesh/x.hpp", '#pragma once\n#include <CLI/CLI.hpp>\n', "inside a .cpp"),
+    ("src/mesh/x.hpp", "int f();\n", "#pragma once"),
+    ("solvers/numeric/x.cpp", "auto c = MPI_COMM_WORLD;\n", "world communicator"),
+    ("src/mesh/x.cpp", "std::uniform_real_distribution<double> d;\n", "seeded_random"),
+    ("io/files/x.cpp", "int i = rand();\n", "seeded_random"),
+    ("src/mesh/x.cpp", "using namespace std;\n", "namespace"),
+    ("src/base/x.cpp", '#include "src/mesh/a.hpp"\n', "the room src/base/ must not know src/mesh/"),
+    ("mpi_drivers/process/x.cpp", '#include "mpi_drivers/options/d.hpp"\n', "must not know mpi_drivers/options/"),
+    ("src/attic/x.cpp", '#include "src/base/g.hpp"\n', "src/attic/ is no room"),
 )
 
 
@@ -133,6 +226,11 @@ def self_test():
         found = found_in({**CLEAN_TREE, path: text})
         if len(found) != 1 or not found[0].startswith(path + ":") or sentence not in found[0]:
             wrong.append(f"{path} with {text!r} must give one '{sentence}', gave {found}")
+    many = {f"src/base/unit_{k}.cpp": "" for k in range(MOST_UNITS + 1)}
+    if [f for f in found_in({**CLEAN_TREE, **many}) if "units in one folder" in f] == []:
+        wrong.append(f"{MOST_UNITS + 1} units in one folder must be refused")
+    if cycles({"a": ("b",), "b": ("c",), "c": ("b",)}) != ["b", "c"]:
+        wrong.append("a cycle of rooms must be found")
     return wrong
 
 

@@ -19,11 +19,11 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh_reader.hpp"
-#include "src/dual_graph.hpp"
-#include "src/face_geometry.hpp"
-#include "src/geodesic.hpp"
-#include "src/mesh_repair.hpp"
+#include "io/mesh_files/mesh_reader.hpp"
+#include "src/geodesics/geodesic.hpp"
+#include "src/mesh/dual_graph.hpp"
+#include "src/mesh/face_geometry.hpp"
+#include "src/repair/mesh_repair.hpp"
 
 namespace {
 

@@ -4,12 +4,12 @@
 
 #include <cstdio>
 
-#include "io/mesh_reader.hpp"
+#include "io/mesh_files/mesh_reader.hpp"
 #include "mpi_drivers/co_segmentation.hpp"
-#include "src/dual_graph.hpp"
-#include "src/face_geometry.hpp"
-#include "src/mesh_repair.hpp"
-#include "src/shape_diameter.hpp"
+#include "src/descriptors/shape_diameter.hpp"
+#include "src/mesh/dual_graph.hpp"
+#include "src/mesh/face_geometry.hpp"
+#include "src/repair/mesh_repair.hpp"
 
 int main(int argc, char** argv) {
     if (argc != 3) return 2;

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "src/face_geometry.hpp"
-#include "src/seeded_random.hpp"
+#include "src/base/seeded_random.hpp"
+#include "src/mesh/face_geometry.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace coseg::test {

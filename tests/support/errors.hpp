@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "src/error.hpp"
+#include "src/base/error.hpp"
 
 namespace coseg::test {
 

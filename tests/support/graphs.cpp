@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "src/seeded_random.hpp"
+#include "src/base/seeded_random.hpp"
 
 namespace coseg::testing_graphs {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "solvers/coefficients.hpp"
-#include "solvers/patch_links.hpp"
-#include "solvers/sparse_rows.hpp"
-#include "src/comm.hpp"
+#include "solvers/affinity/patch_links.hpp"
+#include "solvers/affinity/sparse_rows.hpp"
+#include "solvers/subspace/coefficients.hpp"
+#include "src/parallel/comm.hpp"
 
 namespace coseg::testing_graphs {
 

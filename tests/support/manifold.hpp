@@ -1,5 +1,5 @@
 #pragma once
-// Independent checks of what src/mesh_repair.hpp promises, and ways between the two kinds of mesh.
+// Independent checks of what src/repair/mesh_repair.hpp promises, and ways between the two kinds of mesh.
 
 #include <Eigen/LU>
 #include <map>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/polygon_mesh.hpp"
-#include "src/tri_mesh.hpp"
+#include "src/mesh/polygon_mesh.hpp"
+#include "src/mesh/tri_mesh.hpp"
 
 namespace coseg::test {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/tri_mesh.hpp"
+#include "src/mesh/tri_mesh.hpp"
 
 namespace coseg::test {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "src/tri_mesh.hpp"
+#include "src/mesh/tri_mesh.hpp"
 
 namespace coseg::test {
 

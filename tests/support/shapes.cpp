@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "src/seeded_random.hpp"
+#include "src/base/seeded_random.hpp"
 
 namespace coseg::test {
 

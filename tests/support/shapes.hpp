@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "src/tri_mesh.hpp"
+#include "src/mesh/tri_mesh.hpp"
 
 namespace coseg::test {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <span>
 
-#include "src/seeded_random.hpp"
+#include "src/base/seeded_random.hpp"
 
 namespace coseg {
 

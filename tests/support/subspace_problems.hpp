@@ -5,10 +5,10 @@
 #include <functional>
 #include <string>
 
-#include "solvers/coefficients.hpp"
-#include "solvers/subspace_problem.hpp"
-#include "solvers/subspace_solver.hpp"
-#include "src/comm.hpp"
+#include "solvers/subspace/coefficients.hpp"
+#include "solvers/subspace/subspace_problem.hpp"
+#include "solvers/variants/subspace_solver.hpp"
+#include "src/parallel/comm.hpp"
 
 namespace coseg {
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "src/dual_graph.hpp"
-#include "src/face_geometry.hpp"
-#include "src/tri_mesh.hpp"
+#include "src/mesh/dual_graph.hpp"
+#include "src/mesh/face_geometry.hpp"
+#include "src/mesh/tri_mesh.hpp"
 
 namespace coseg::test {
 

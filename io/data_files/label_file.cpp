@@ -1,0 +1,46 @@
+#include "io/data_files/label_file.hpp"
+
+#include <charconv>
+#include <limits>
+
+#include "io/files/atomic_file.hpp"
+#include "io/files/file_contents.hpp"
+#include "io/files/text_cursor.hpp"
+
+namespace coseg {
+
+std::vector<int> read_labels(const std::string& path, int expected_count) {
+    const std::string bytes = read_file(path);
+    TextCursor cursor(bytes, path, 0);
+    std::vector<int> labels;
+    while (cursor.next_line()) {
+        const std::string_view word = cursor.word();
+        long long label = 0;
+        const bool fits = parse_integer(word, label) && label >= std::numeric_limits<int>::min() &&
+                          label <= std::numeric_limits<int>::max();
+        if (!fits || !cursor.word().empty()) {
+            cursor.fail("a label file has one integer a line, here stands " + quoted(word) +
+                        (fits ? " and more" : ""));
+        }
+        labels.push_back(static_cast<int>(label));
+    }
+    if (expected_count >= 0 && labels.size() != static_cast<std::size_t>(expected_count)) {
+        cursor.fail("the file ends with " + std::to_string(labels.size()) + " labels, but the mesh has " +
+                    std::to_string(expected_count) +
+                    " faces; give one label per face, in the mesh file's order");
+    }
+    return labels;
+}
+
+void write_labels(const std::string& path, const std::vector<int>& labels) {
+    std::string content;
+    content.reserve(2 * labels.size() + 16);
+    char digits[16];
+    for (const int label : labels) {
+        content.append(digits, std::to_chars(digits, digits + sizeof digits, label).ptr);
+        content.push_back('\n');
+    }
+    write_file(path, content);
+}
+
+}  // namespace coseg

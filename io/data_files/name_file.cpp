@@ -1,0 +1,62 @@
+#include "io/data_files/name_file.hpp"
+
+#include <limits>
+#include <vector>
+
+#include "io/files/file_contents.hpp"
+#include "io/files/text_cursor.hpp"
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+struct NamedLine {
+    int line = 0;  ///< of the file
+    std::vector<std::string> words;
+};
+
+std::vector<NamedLine> lines_with_words(const std::string& bytes, const std::string& path) {
+    TextCursor cursor(bytes, path, 0);
+    std::vector<NamedLine> lines;
+    while (cursor.next_line()) {
+        NamedLine line{cursor.line(), {}};
+        for (std::string_view word = cursor.word(); !word.empty(); word = cursor.word())
+            line.words.emplace_back(word);
+        lines.push_back(line);
+    }
+    if (lines.empty()) cursor.fail("no name in the file; give one a line, or a number and a name");
+    return lines;
+}
+
+/// The label that a line "3 wing" begins with, else -1.
+int leading_label(const NamedLine& line) {
+    long long label = -1;
+    const bool fits = line.words.size() > 1 && parse_integer(line.words.front(), label) && label >= 0 &&
+                      label <= std::numeric_limits<int>::max();
+    return fits ? static_cast<int>(label) : -1;
+}
+
+std::string joined(const std::vector<std::string>& words, std::size_t begin) {
+    std::string text;
+    for (std::size_t k = begin; k < words.size(); ++k) text += (k > begin ? " " : "") + words[k];
+    return text;
+}
+
+}  // namespace
+
+LabelNames read_names(const std::string& path) {
+    const std::vector<NamedLine> lines = lines_with_words(read_file(path), path);
+    bool numbered = true;
+    for (const NamedLine& line : lines) numbered = numbered && leading_label(line) >= 0;
+    LabelNames names;
+    for (const NamedLine& line : lines) {
+        const int label = numbered ? leading_label(line) : static_cast<int>(names.size());
+        if (!names.emplace(label, joined(line.words, numbered ? 1 : 0)).second)
+            throw Error(ExitCode::input, path + ":" + std::to_string(line.line) + ": label " +
+                                             std::to_string(label) + " has a name already");
+    }
+    return names;
+}
+
+}  // namespace coseg

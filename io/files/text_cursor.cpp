@@ -1,0 +1,90 @@
+#include "io/files/text_cursor.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\r' || c == '\n'; }
+
+}  // namespace
+
+TextCursor::TextCursor(std::string_view text, std::string path, char comment)
+    : text_(text), path_(std::move(path)), comment_(comment) {
+    if (text_.substr(0, byte_order_mark.size()) == byte_order_mark) next_ = byte_order_mark.size();
+}
+
+void TextCursor::take_line() {
+    const std::size_t begin = next_;
+    const std::size_t end = std::min(text_.find_first_of("\r\n", begin), text_.size());
+    next_ = std::min(end + 1, text_.size());
+    if (end + 1 < text_.size() && text_[end] == '\r' && text_[end + 1] == '\n') ++next_;
+    rest_ = text_.substr(begin, end - begin);
+    if (comment_ != 0) rest_ = rest_.substr(0, rest_.find(comment_));
+    ++line_;
+}
+
+bool TextCursor::next_line() {
+    while (next_ < text_.size()) {
+        take_line();
+        while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
+        if (!rest_.empty()) return true;
+    }
+    rest_ = {};
+    return false;
+}
+
+std::string_view TextCursor::word() {
+    while (true) {
+        while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
+        if (!joins_lines_ || rest_ != "\\" || next_ >= text_.size()) break;
+        take_line();
+    }
+    std::size_t length = 0;
+    while (length < rest_.size() && !is_blank(rest_[length])) ++length;
+    const std::string_view found = rest_.substr(0, length);
+    rest_.remove_prefix(length);
+    return found;
+}
+
+std::string_view TextCursor::word_on_any_line() {
+    while (true) {
+        const std::string_view found = word();
+        if (!found.empty() || !next_line()) return found;
+    }
+}
+
+void TextCursor::fail(const std::string& sentence) const {
+    throw Error(ExitCode::input, path_ + ":" + std::to_string(std::max(line_, 1)) + ": " + sentence);
+}
+
+bool parse_real(std::string_view word, double& value) {
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+    const auto [end, cause] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (end != word.data() + word.size() || word.empty()) return false;
+    if (cause == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
+    return cause == std::errc() || cause == std::errc::result_out_of_range;
+}
+
+bool parse_integer(std::string_view word, long long& value) {
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+    const auto [end, cause] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return cause == std::errc() && end == word.data() + word.size() && !word.empty();
+}
+
+std::string quoted(std::string_view word) {
+    constexpr std::size_t longest = 40;
+    std::string shown = "'";
+    for (const char c : word.substr(0, longest)) shown += c >= ' ' && c <= '~' ? c : '?';
+    return shown + (word.size() > longest ? "...'" : "'");
+}
+
+}  // namespace coseg

@@ -1,0 +1,54 @@
+#include "io/folders/finished_run.hpp"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/files/file_contents.hpp"
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+using Json = nlohmann::json;
+
+FinishedRun run_of(const std::string& folder, const Json& report) {
+    FinishedRun run;
+    run.folder = folder;
+    const Json& options = report.at("options");
+    run.parts = options.at("parts").get<int>();
+    run.seed = options.at("seed").get<std::uint64_t>();
+    run.remesh = options.value("remesh", "auto");
+    run.patches = options.at("patches").get<int>();
+    run.geodesic_samples = options.at("geodesic-samples").get<int>();
+    run.part_area = report.at("partition").at("part_area").get<std::vector<double>>();
+    for (const Json& mesh : report.at("meshes")) {
+        run.shapes.push_back({mesh.at("name").get<std::string>(), mesh.at("path").get<std::string>(),
+                              mesh.at("part_area").get<std::vector<double>>()});
+    }
+    return run;
+}
+
+}  // namespace
+
+FinishedRun read_finished_run(const std::string& folder) {
+    const std::string path = (std::filesystem::path(folder) / "report.json").string();
+    if (!std::filesystem::exists(path)) {
+        throw Error(
+            ExitCode::input,
+            "'" + folder + "' holds no report.json; name the folder that coseg run was given with --out");
+    }
+    try {
+        const Json report = Json::parse(read_file(path));
+        if (!report.at("format").get<std::string>().starts_with("coseg report"))
+            throw Error(ExitCode::input, path + ": is not a report of coseg run");
+        FinishedRun run = run_of(folder, report);
+        if (run.shapes.empty()) throw Error(ExitCode::input, path + ": lists no shape");
+        return run;
+    } catch (const Json::exception& error) {
+        throw Error(ExitCode::input, path + ": cannot be read as a report of coseg run (" + error.what() +
+                                         "); run coseg run again");
+    }
+}
+
+}  // namespace coseg

@@ -1,0 +1,262 @@
+#include "io/folders/output_directory.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct OwnFolder {
+    const char* name;
+    const char* extension;  ///< of the files in it that are ours
+};
+
+constexpr std::array<OwnFolder, 3> own_folders{{{"labels", ".seg"}, {"patches", ".seg"}, {"ply", ".ply"}}};
+// Not every run has these; those of an earlier run show what is no longer there.
+constexpr OwnFolder picture_pages{"sheets", ".png"};
+constexpr std::array<const char*, 6> picture_files{"contact_sheet", "affinity.png",
+                                                   "report.html",   "profile.txt",
+                                                   "trace.json",  // what their names begin with
+                                                   "model.h5"};
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what, const std::error_code& cause) {
+    throw Error(ExitCode::output, path.string() + ": " + what + " (" + cause.message() + ")");
+}
+
+std::string absolute_directory(const std::string& directory) {
+    if (directory.empty()) throw Error(ExitCode::output, "the output folder has no name; give one");
+    std::error_code cause;
+    fs::path path = fs::weakly_canonical(fs::absolute(directory, cause), cause);
+    if (cause) fail(directory, "the output folder's path cannot be followed", cause);
+    if (!path.has_filename()) path = path.parent_path();
+    if (path == path.root_path())
+        throw Error(ExitCode::output, path.string() + ": cannot be an output folder; name another");
+    return path.string();
+}
+
+constexpr const char* partial_mark = ".partial-";
+
+/// What a killed run left in a folder does not count.
+bool is_empty_or_missing(const fs::path& path) {
+    std::error_code cause;
+    if (!fs::exists(path, cause)) return true;
+    for (fs::directory_iterator entry(path, cause), end; !cause && entry != end; entry.increment(cause)) {
+        if (!entry->path().filename().string().starts_with(partial_mark)) return false;
+    }
+    return !cause;
+}
+
+/// The names of this machine's partial folders begin so; the process number follows.
+std::string own_mark() {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+    return partial_mark + std::string(host.data()) + "-";
+}
+
+/// Inside a folder that exists: it may be a mount point, or its parent may be closed to us.
+std::string staging_prefix(const std::string& path) {
+    std::error_code ignored;
+    return (fs::is_directory(path, ignored) ? path + "/" : path) + own_mark();
+}
+
+/// Ended, but not yet seen to by its parent, which in a container may be never.
+bool is_zombie(pid_t process) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+    std::string line;
+    std::getline(file, line);  // number (name) state ..., where the name may hold anything
+    const std::size_t name_end = line.rfind(')');
+    return name_end != std::string::npos && line.compare(name_end, 3, ") Z") == 0;
+}
+
+bool is_of_dead_process(const std::string& number) {
+    pid_t process = 0;
+    const char* end = number.data() + number.size();
+    const auto [stop, error] = std::from_chars(number.data(), end, process);
+    if (error != std::errc() || stop != end || process <= 0) return false;
+    if (::kill(process, 0) != 0) return errno == ESRCH;
+    return is_zombie(process);
+}
+
+/// A process that is killed cannot tidy up: the next run on this machine that writes to the same place does.
+void remove_leftovers(const fs::path& prefix) {
+    const std::string mark = prefix.filename().string();
+    std::error_code ignored;
+    std::vector<fs::path> leftovers;
+    for (fs::directory_iterator entry(prefix.parent_path(), ignored), end; !ignored && entry != end;
+         entry.increment(ignored)) {
+        const std::string name = entry->path().filename().string();
+        if (name.starts_with(mark) && is_of_dead_process(name.substr(mark.size())))
+            leftovers.push_back(entry->path());
+    }
+    for (const fs::path& leftover : leftovers) fs::remove_all(leftover, ignored);
+}
+
+void move_entry(const fs::path& from, const fs::path& to) {
+    std::error_code cause;
+    fs::rename(from, to, cause);
+    if (cause) fail(to, "cannot be put in place", cause);
+}
+
+/// Label and PLY files that `fresh` does not bring anew.
+void remove_stale(const OwnFolder& folder, const fs::path& old, const fs::path& fresh) {
+    std::error_code cause;
+    std::vector<fs::path> stale;
+    for (fs::directory_iterator entry(old / folder.name, cause), end; !cause && entry != end;
+         entry.increment(cause)) {
+        const fs::path name = entry->path().filename();
+        std::error_code ignored;
+        if (name.extension() == folder.extension && !entry->is_directory(ignored) &&
+            !fs::exists(fresh / folder.name / name, ignored)) {
+            stale.push_back(entry->path());
+        }
+    }
+    for (const fs::path& path : stale) {
+        fs::remove(path, cause);
+        if (cause) fail(path, "the earlier result cannot be removed", cause);
+    }
+}
+
+std::vector<fs::path> entries_of(const fs::path& folder) {
+    std::error_code cause;
+    std::vector<fs::path> entries;
+    for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end; entry.increment(cause))
+        entries.push_back(entry->path());
+    if (cause) fail(folder, "cannot be read", cause);
+    std::sort(entries.begin(), entries.end());
+    return entries;
+}
+
+void remove_stale_pictures(const fs::path& old, const fs::path& fresh) {
+    for (const fs::path& path : entries_of(old)) {
+        const std::string name = path.filename().string();
+        const bool is_picture = std::any_of(picture_files.begin(), picture_files.end(),
+                                            [&](const char* begin) { return name.starts_with(begin); });
+        std::error_code cause;
+        if (!is_picture || fs::exists(fresh / name, cause)) continue;
+        fs::remove(path, cause);
+        if (cause) fail(path, "the earlier result cannot be removed", cause);
+    }
+}
+
+/// Moves the content of `from` into `to`, folder by folder, replacing files of the same name.
+void merge_folder(const fs::path& from, const fs::path& to) {
+    for (const fs::path& entry : entries_of(from)) {
+        const fs::path target = to / entry.filename();
+        std::error_code ignored;
+        if (fs::is_directory(entry, ignored) && fs::is_directory(target, ignored))
+            merge_folder(entry, target);
+        else
+            move_entry(entry, target);
+    }
+}
+
+}  // namespace
+
+OutputDirectory::OutputDirectory(const std::string& directory, bool force)
+    : path_(absolute_directory(directory)),
+      staging_(staging_prefix(path_) + std::to_string(::getpid())),
+      force_(force) {
+    refuse_what_is_there();
+    try {
+        create();
+    } catch (...) {
+        remove_partial();
+        throw;
+    }
+}
+
+OutputDirectory::~OutputDirectory() { abandon(); }
+
+void OutputDirectory::abandon() noexcept {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!is_committed_) remove_partial();
+}
+
+void OutputDirectory::refuse_what_is_there() const {
+    std::error_code cause;
+    if (fs::exists(path_, cause) && !fs::is_directory(path_, cause)) {
+        throw Error(ExitCode::output, path_ + ": is a file, not a folder; name another output folder");
+    }
+    if (!fs::exists(path_, cause) && fs::is_symlink(fs::symlink_status(path_, cause))) {
+        throw Error(ExitCode::output,
+                    path_ + ": is a symbolic link to nothing; make the folder or name another");
+    }
+    if (!force_ && !is_empty_or_missing(path_)) {
+        throw Error(
+            ExitCode::output,
+            path_ +
+                ": the output folder is not empty; name another or allow replacing its results with --force");
+    }
+}
+
+void OutputDirectory::create() {
+    std::error_code cause;
+    std::vector<fs::path> missing;
+    for (fs::path parent = fs::path(path_).parent_path(); !fs::exists(parent, cause);
+         parent = parent.parent_path())
+        missing.push_back(parent);
+    std::reverse(missing.begin(), missing.end());
+    for (const fs::path& parent : missing) {
+        if (fs::create_directory(parent, cause)) created_parents_.push_back(parent);
+        if (cause) fail(parent, "the folder cannot be created", cause);
+    }
+    remove_leftovers(staging_prefix(path_));
+    fs::remove_all(staging_, cause);  // of a dead process with the same number
+    fs::create_directory(staging_, cause);
+    if (cause) fail(path_, "the output folder cannot be created", cause);
+    for (const OwnFolder& folder : own_folders) {
+        fs::create_directory(fs::path(staging_) / folder.name, cause);
+        if (cause) fail(path_, "the output folder cannot be created", cause);
+    }
+}
+
+void OutputDirectory::commit() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    refuse_what_is_there();
+    std::error_code cause;
+    if (fs::exists(path_, cause)) {
+        move_into_existing();
+        fs::remove_all(staging_, cause);
+    } else {
+        fs::rename(staging_, path_, cause);
+        if (cause) fail(path_, "the output folder cannot be put in place", cause);
+    }
+    is_committed_ = true;
+}
+
+void OutputDirectory::move_into_existing() const {
+    for (const OwnFolder& folder : own_folders) remove_stale(folder, path_, staging_);
+    remove_stale(picture_pages, path_, staging_);
+    remove_stale_pictures(path_, staging_);
+    merge_folder(staging_, path_);
+}
+
+void OutputDirectory::remove_partial() noexcept {
+    std::error_code ignored;
+    // Other ranks may still be writing: a file that appears while the folder is emptied keeps it.
+    constexpr int attempts = 20;
+    for (int k = 0; k < attempts; ++k) {
+        fs::remove_all(staging_, ignored);
+        if (!fs::exists(staging_, ignored)) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    for (auto parent = created_parents_.rbegin(); parent != created_parents_.rend(); ++parent)
+        fs::remove(*parent, ignored);
+}
+
+}  // namespace coseg

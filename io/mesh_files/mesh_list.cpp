@@ -1,0 +1,127 @@
+#include "io/mesh_files/mesh_list.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "io/files/file_contents.hpp"
+#include "io/mesh_files/mesh_reader.hpp"
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& sentence) { throw Error(ExitCode::input, sentence); }
+
+class MeshListExpander {
+  public:
+    void add_argument(const std::string& argument) {
+        if (argument.size() > 1 && argument[0] == '@')
+            add_list(argument.substr(1));
+        else
+            add_path(argument, "");
+    }
+
+    std::vector<MeshEntry> take() {
+        if (entries_.empty()) fail("no mesh is given; name mesh files, folders or @LIST files");
+        std::stable_sort(entries_.begin(), entries_.end(),
+                         [](const MeshEntry& a, const MeshEntry& b) { return a.name < b.name; });
+        const auto twice =
+            std::adjacent_find(entries_.begin(), entries_.end(),
+                               [](const MeshEntry& a, const MeshEntry& b) { return a.name == b.name; });
+        if (twice != entries_.end()) {
+            fail("two meshes are named '" + twice->name + "': " + twice->path + " and " +
+                 std::next(twice)->path + "; rename one or give it once");
+        }
+        return std::move(entries_);
+    }
+
+  private:
+    /// `where` is empty or "LIST:LINE: ", for messages.
+    void add_path(const fs::path& path, const std::string& where) {
+        std::error_code cause;
+        const fs::file_status status = fs::status(path, cause);
+        if (!fs::exists(status)) fail(where + path.string() + ": no such file or folder; check the path");
+        if (fs::is_directory(status))
+            add_directory(path, where);
+        else
+            add_file(path, where);
+    }
+
+    void add_directory(const fs::path& folder, const std::string& where) {
+        std::error_code cause;
+        const std::size_t before = entries_.size();
+        for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end;
+             entry.increment(cause)) {
+            std::error_code ignored;
+            const bool is_hidden = entry->path().filename().string().starts_with(".");
+            if (!is_hidden && has_mesh_extension(entry->path().string()) && !entry->is_directory(ignored))
+                add_file(entry->path(), where);
+        }
+        if (cause) fail(where + folder.string() + ": the folder cannot be read (" + cause.message() + ")");
+        if (entries_.size() == before) {
+            fail(where + folder.string() +
+                 ": the folder has no .off, .obj, .ply or .stl files; name the folder that holds the meshes");
+        }
+    }
+
+    void add_file(const fs::path& path, const std::string& where) {
+        if (!has_mesh_extension(path.string())) {
+            fail(where + path.string() +
+                 ": meshes are read from .off, .obj, .ply and .stl files; a list of meshes is given as @" +
+                 path.string());
+        }
+        std::error_code cause;
+        const std::uintmax_t bytes = fs::file_size(path, cause);
+        if (cause) fail(where + path.string() + ": cannot be read (" + cause.message() + ")");
+        entries_.push_back({path.stem().string(), path.string(), bytes});
+    }
+
+    void add_list(const std::string& list) {
+        const std::string text = read_file(list);
+        const std::size_t before = entries_.size();
+        int number = 0;
+        for (std::size_t begin = 0; begin < text.size();) {
+            const std::size_t end = std::min(text.find('\n', begin), text.size());
+            const std::string line = without_comment(text.substr(begin, end - begin));
+            begin = end + 1;
+            ++number;
+            if (!line.empty()) add_path(located(line, list), list + ":" + std::to_string(number) + ": ");
+        }
+        if (entries_.size() == before) fail(list + ": the list names no meshes; write one path a line");
+    }
+
+    static std::string without_comment(std::string line) {
+        constexpr const char* blanks = " \t\r\v\f";
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            if (line[i] != '#' || (i > 0 && line[i - 1] != ' ' && line[i - 1] != '\t')) continue;
+            line.resize(i);
+            break;
+        }
+        const std::size_t first = line.find_first_not_of(blanks);
+        if (first == std::string::npos) return {};
+        return line.substr(first, line.find_last_not_of(blanks) - first + 1);
+    }
+
+    static fs::path located(const fs::path& path, const fs::path& list) {
+        if (path.is_absolute()) return path;
+        const fs::path beside = list.parent_path() / path;
+        std::error_code ignored;
+        return fs::exists(beside, ignored) || !fs::exists(path, ignored) ? beside : path;
+    }
+
+    std::vector<MeshEntry> entries_;
+};
+
+}  // namespace
+
+std::vector<MeshEntry> expand_mesh_list(const std::vector<std::string>& arguments) {
+    MeshListExpander expander;
+    for (const std::string& argument : arguments) expander.add_argument(argument);
+    return expander.take();
+}
+
+}  // namespace coseg

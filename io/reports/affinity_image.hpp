@@ -1,0 +1,17 @@
+#pragma once
+// DIR/affinity.png: the links of all patches, sorted by part. Format of the rows: docs/formats.md, `partition.affinity`.
+// Source: Hu, Fan, Liu 2012, Figure 4.
+
+#include <string>
+#include <vector>
+
+#include "src/pictures/image.hpp"
+
+namespace coseg {
+
+/// rows: n texts of n digits 0-9a-z; part_ends: the bin after the last of each part, ascending, at most n. White is no link, dark
+/// blue the strongest; lines part the parts, and a strip in each part's colour runs along the top and the left. At least
+/// 480 pixels wide. No rows: an empty image.
+Image affinity_image(const std::vector<std::string>& rows, const std::vector<int>& part_ends);
+
+}  // namespace coseg

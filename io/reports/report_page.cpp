@@ -1,0 +1,166 @@
+#include "io/reports/report_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "io/files/atomic_file.hpp"
+#include "io/files/byte_cursor.hpp"
+#include "io/reports/web_assets.hpp"
+#include "src/base/error.hpp"
+#include "src/pictures/part_colors.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr std::uint16_t wrong_bit = 0x8000;
+constexpr int most_short_vertices = 65535;
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = (group << 8U) | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? digits[(group >> (18U - 6U * k)) & 63U] : '=';
+    }
+    return text;
+}
+
+/// A script's text must not hold what ends a script.
+std::string inside_script(std::string_view text) {
+    std::string safe;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        safe += text[i];
+        if (text[i] == '<' && i + 1 < text.size() && text[i + 1] == '/') safe += '\\';
+    }
+    return safe;
+}
+
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '<')
+            safe += "&lt;";
+        else if (c == '&')
+            safe += "&amp;";
+        else
+            safe += c;
+    }
+    return safe;
+}
+
+std::string hex_color(const Color& color) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text = "#";
+    for (const std::uint8_t channel : color) {
+        text += digits[channel >> 4U];
+        text += digits[channel & 15U];
+    }
+    return text;
+}
+
+nlohmann::ordered_json or_null(const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string page_data(const ReportPage& page) {
+    nlohmann::ordered_json data;
+    data["report"] = nlohmann::ordered_json::parse(page.report_json);
+    data["accuracy"] = or_null(page.accuracy);
+    data["towards"] = {page.view.towards.x(), page.view.towards.y(), page.view.towards.z()};
+    data["up"] = {page.view.up.x(), page.view.up.y(), page.view.up.z()};
+    for (int part = 0; part < part_color_count; ++part) data["colors"].push_back(hex_color(part_color(part)));
+    for (const PageShape& shape : page.shapes)
+        data["shapes"].push_back({{"accuracy", or_null(shape.accuracy)}});
+    std::string text = data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    std::string safe;
+    for (const char c : text) safe += c == '<' ? "\\u003c" : std::string(1, c);
+    return safe;
+}
+
+std::string mesh_elements(const ReportPage& page) {
+    std::string text;
+    for (std::size_t k = 0; k < page.shapes.size(); ++k) {
+        if (page.shapes[k].packed.empty()) continue;
+        text += "<script type=\"text/plain\" id=\"mesh" + std::to_string(k) + "\">" + page.shapes[k].packed +
+                "</script>\n";
+    }
+    return text;
+}
+
+/// The page's text with the pieces in place of their @NAME@.
+std::string filled(std::string_view page, const std::map<std::string, std::string, std::less<>>& pieces) {
+    std::string text;
+    while (!page.empty()) {
+        const std::size_t begin = page.find('@');
+        const std::size_t end = begin == std::string_view::npos ? begin : page.find('@', begin + 1);
+        if (end == std::string_view::npos) break;
+        const auto piece = pieces.find(page.substr(begin + 1, end - begin - 1));
+        text += page.substr(0, begin);
+        if (piece != pieces.end()) text += piece->second;
+        page.remove_prefix(end + 1);
+    }
+    return text += page;
+}
+
+}  // namespace
+
+std::string packed_mesh(const TriMesh& mesh, const std::vector<int>& labels,
+                        const std::vector<bool>& is_wrong) {
+    std::string bytes;
+    append_little_endian(bytes, static_cast<std::uint32_t>(mesh.vertex_count()));
+    append_little_endian(bytes, static_cast<std::uint32_t>(mesh.face_count()));
+    for (const double place : mesh.vertices.reshaped()) {
+        const double share = std::clamp(0.5 * (place + 1.0), 0.0, 1.0);
+        append_little_endian(bytes, static_cast<std::uint16_t>(std::lround(65535.0 * share)));
+    }
+    while (bytes.size() % 4 != 0) bytes += '\0';
+    const bool is_long = mesh.vertex_count() > most_short_vertices;
+    for (const int vertex : mesh.faces.reshaped()) {
+        if (is_long)
+            append_little_endian(bytes, static_cast<std::uint32_t>(vertex));
+        else
+            append_little_endian(bytes, static_cast<std::uint16_t>(vertex));
+    }
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+        const auto label = static_cast<std::uint16_t>(labels[f]);
+        append_little_endian(bytes, static_cast<std::uint16_t>(is_wrong[f] ? label | wrong_bit : label));
+    }
+    return base64(bytes);
+}
+
+bool can_write_report_page() { return web_assets().has_libraries(); }
+
+void write_report_page(const std::string& path, const ReportPage& page) {
+    const WebAssets& assets = web_assets();
+    if (!assets.has_libraries()) {
+        throw Error(
+            ExitCode::internal,
+            "this coseg was built without three.js and Chart.js, so it cannot make report.html; install "
+            "libjs-three and libjs-chart.js and build it again");
+    }
+    const std::string sheet =
+        page.sheet_png.empty()
+            ? "<p class=\"faint\">The run drew no contact sheet.</p>"
+            : "<img class=\"sheet\" alt=\"all shapes, coloured by part\" src=\"data:image/png;base64," +
+                  base64(page.sheet_png) + "\">";
+    write_file(path, filled(assets.page, {{"TITLE", escaped(page.title)},
+                                          {"STYLE", std::string(assets.style)},
+                                          {"SHEET", sheet},
+                                          {"LICENCES", escaped(assets.licences)},
+                                          {"DATA", page_data(page)},
+                                          {"MESHES", mesh_elements(page)},
+                                          {"THREE", inside_script(assets.three)},
+                                          {"CONTROLS", inside_script(assets.controls)},
+                                          {"CHART", inside_script(assets.chart)},
+                                          {"SCRIPT", inside_script(assets.script)}}));
+}
+
+}  // namespace coseg

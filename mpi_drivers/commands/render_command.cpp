@@ -1,0 +1,109 @@
+// `coseg render`: contact sheets from a finished run.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/data_files/name_file.hpp"
+#include "mpi_drivers/finished_runs/finished_shapes.hpp"
+#include "mpi_drivers/finished_runs/sheet_kinds.hpp"
+#include "mpi_drivers/finished_runs/sheet_stage.hpp"
+#include "mpi_drivers/options/command.hpp"
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+struct RenderOptions {
+    FinishedInput input;
+    std::vector<std::string> kinds = {"parts"};
+    std::string names;
+    std::string out;
+    ViewChoice view;
+};
+
+bool needs_truth(const std::vector<std::string>& kinds) {
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [](const std::string& kind) { return kind == "truth" || kind == "errors"; });
+}
+
+/// --names, else what lies beside the known labels, else none. Collective; throws AgreedError(input).
+LabelNames chosen_names(const Comm& world, const RenderOptions& options) {
+    LabelNames names;
+    agree(world, [&] {
+        const std::string beside = options.input.truth + "/labels.txt";
+        if (!options.names.empty()) {
+            names = read_names(options.names);
+        } else if (!options.input.truth.empty() && std::filesystem::exists(beside)) {
+            names = read_names(beside);
+        }
+    });
+    return names;
+}
+
+/// Collective over the invocation's ranks.
+void render(const RenderOptions& options, const Comm& world) {
+    if (needs_truth(options.kinds) && options.input.truth.empty())
+        throw AgreedError(ExitCode::usage,
+                          "truth and errors need the folder of the known labels: --truth DIR");
+    const FinishedRun run = read_run(world, options.input.folder);
+    const std::vector<LabelledMesh> shapes = read_shapes(world, run, options.input);
+    PartKey key{{}, chosen_names(world, options)};
+    if (!options.input.truth.empty()) key.label_of_part = agree_on_truth(world, shapes, run.parts);
+    const std::string out = options.out.empty() ? options.input.folder : options.out;
+    agree(world, [&] {
+        std::error_code cause;
+        if (world.is_root()) std::filesystem::create_directories(out, cause);
+        if (cause) throw Error(ExitCode::output, out + ": cannot be made (" + cause.message() + ")");
+    });
+    for (const std::string& kind : options.kinds) {
+        const DrawnKind drawn = drawn_kind(world, run, shapes, kind, key);
+        const View view = agree_on_view(world, drawn.shapes, options.view);
+        const std::vector<std::string> files = write_sheets(
+            world, out, {kind, drawn.heading, view}, drawn.shapes, static_cast<int>(run.shapes.size()));
+        for (const std::string& file : files) std::cout << out << "/" << file << "\n";
+    }
+    std::cout.flush();
+}
+
+}  // namespace
+
+Command add_render_command(CLI::App& parent) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* app = parent.add_subcommand("render", "Draw contact sheets of a finished run");
+    app->add_option("RESULT", options->input.folder, "The folder that coseg run was given with --out")
+        ->required();
+    app->add_option("--what", options->kinds,
+                    "What colours the faces, one or several with commas: parts, patches, truth, errors, "
+                    "gaussian_curvature, shape_diameter, average_geodesic, shape_context, conformal_factor")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->check(CLI::IsMember(sheet_kinds()))
+        ->type_name("KIND,...");
+    app->add_option("--truth", options->input.truth,
+                    "Folder of known labels, NAME.seg: for truth and errors, and to name the parts");
+    app->add_option("--names", options->names,
+                    "Names for the legend, one a line or `NUMBER NAME`: of the known labels, or of the parts "
+                    "without --truth; labels.txt in the folder of --truth if not given")
+        ->type_name("FILE");
+    app->add_option("--meshes", options->input.meshes,
+                    "Where the meshes are now, if not where the run found them: files, folders or @LIST")
+        ->type_name("MESH|DIRECTORY|@LIST");
+    app->add_option("--view", options->view.view,
+                    "auto (the largest outlines), front, back, left, right, top, bottom, corner, or "
+                    "AZIMUTH,ELEVATION in degrees")
+        ->capture_default_str();
+    app->add_option("--up", options->view.up, "The axis that points up: auto, x, y, z")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "x", "y", "z"}));
+    app->add_option("--out", options->out, "Folder for the pictures; RESULT itself if not given");
+    app->footer("Example: mpirun -n 2 coseg render result --what parts,errors --truth my_labels");
+    return {app, [options](const Invocation& invocation) { render(*options, invocation.world); }};
+}
+
+}  // namespace coseg

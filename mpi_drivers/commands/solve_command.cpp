@@ -1,0 +1,147 @@
+// coseg solve: the optimiser alone, on a problem file.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "io/data_files/problem_file.hpp"
+#include "mpi_drivers/optimise/solution_output.hpp"
+#include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/option_checks.hpp"
+#include "solvers/subspace/mesh_links.hpp"
+#include "solvers/variants/subspace_variants.hpp"
+
+namespace coseg {
+
+namespace {
+
+struct SolveSettings {
+    std::string path;
+    std::string coefficients;
+    std::string scope = "paper";
+    int patches_per_mesh = 1;
+    int links = 0;
+    std::uint64_t seed = 1;
+    std::string variant = "multi-feature";
+    int feature = 1;
+    SolveOptions options{.gap = 1e-6};
+};
+
+/// Rank 0 reads; the others learn of a bad file before they wait for its content.
+ProblemFile read_and_broadcast(const Comm& comm, const std::string& path, FeatureMatrices& features) {
+    ProblemFile file;
+    agree(comm, [&] {
+        if (comm.is_root()) file = read_problem_file(path);
+    });
+    double numbers[3] = {file.lambda, file.alpha, file.beta};
+    MPI_Bcast(numbers, 3, MPI_DOUBLE, 0, comm.raw());
+    file.lambda = numbers[0];
+    file.alpha = numbers[1];
+    file.beta = numbers[2];
+    features = share_matrices(comm, file.features);
+    file.features.clear();
+    return file;
+}
+
+SubspaceProblem make_problem(const ProblemFile& file, FeatureMatrices features,
+                             const SolveSettings& settings) {
+    SubspaceProblem problem;
+    problem.features = std::move(features);
+    problem.lambda = file.lambda;
+    problem.alpha = file.alpha;
+    problem.beta = file.beta;
+    if (settings.scope == "mesh" && keeps_scope(variant_of(settings.variant))) {
+        problem.scope = PenaltyScope::mesh;
+        for (std::int64_t i = 0; i < problem.size(); ++i) {
+            problem.mesh_of.push_back(static_cast<int>(i / settings.patches_per_mesh));
+        }
+        std::vector<std::string> names;
+        for (int m = 0; m <= problem.mesh_of.back(); ++m) names.push_back(std::to_string(m));
+        if (settings.links > 0) problem.allowed_meshes = mesh_links(names, settings.links, settings.seed);
+    }
+    return problem;
+}
+
+void solve_file(const Comm& comm, const SolveSettings& settings) {
+    if (settings.links > 0 && (settings.scope != "mesh" || !keeps_scope(variant_of(settings.variant)))) {
+        throw AgreedError(
+            ExitCode::usage,
+            "--links needs --scope mesh and a variant that keeps it; scope paper, ssc and ssqp are "
+            "over all pairs");
+    }
+    FeatureMatrices features;
+    const ProblemFile file = read_and_broadcast(comm, settings.path, features);
+    const SubspaceProblem problem = make_problem(file, std::move(features), settings);
+    const double start = MPI_Wtime();
+    const SolveResult result =
+        solve_variant(comm, problem, variant_of(settings.variant), settings.feature - 1, settings.options);
+    const double seconds = MPI_Wtime() - start;
+    if (comm.is_root()) {
+        auto json = nlohmann::ordered_json::parse(certificate_json(problem, result));
+        json.update({{"variant", settings.variant},
+                     {"scope", problem.scope == PenaltyScope::mesh ? "mesh" : "paper"},
+                     {"seconds", seconds},
+                     {"ranks", comm.size()},
+                     {"solver", settings.options.solver}});
+        std::cout << json.dump(2) << std::endl;
+    }
+    write_coefficients(comm, result, settings.coefficients);
+    refuse_unreached_gap(result, settings.options.gap, settings.path);
+}
+
+}  // namespace
+
+Command add_solve_command(CLI::App& parent) {
+    auto settings = std::make_shared<SolveSettings>();
+    CLI::App* app = parent.add_subcommand(
+        "solve", "Solve one subspace problem from a file and print the answer with its certificate as JSON");
+    app->add_option("problem", settings->path,
+                    "The problem: H d N, penalties, known bounds, then the features")
+        ->required();
+    app->add_option("--coefficients", settings->coefficients,
+                    "HDF5 file for W; written also where a limit ends the solve")
+        ->type_name("FILE");
+    app->add_option("--scope", settings->scope,
+                    "What lambda punishes: row sums (paper) or matches per mesh (mesh)")
+        ->check(CLI::IsMember({"paper", "mesh"}))
+        ->capture_default_str();
+    app->add_option("--patches-per-mesh", settings->patches_per_mesh,
+                    "Scope mesh: columns that make up one mesh, in order")
+        ->check(CLI::Range(1, 1 << 30))
+        ->capture_default_str();
+    app->add_option("--links", settings->links,
+                    "Scope mesh: other meshes in which a column may have matches, a seeded sample; 0 is all")
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                return text == "1" ? std::string("a mesh needs at least 2") : std::string();
+            },
+            ""))
+        ->check(CLI::Range(0, 1 << 30))
+        ->capture_default_str();
+    app->add_option("--seed", settings->seed, "Of the sample of --links")->capture_default_str();
+    app->add_option("--variant", settings->variant, "Form of the problem; see docs/method.md")
+        ->check(CLI::IsMember(variant_names()))
+        ->capture_default_str();
+    app->add_option("--feature", settings->feature, "Variant single-feature: which, counted from 1")
+        ->check(CLI::Range(1, 1 << 30))
+        ->capture_default_str();
+    app->add_option("--solver", settings->options.solver,
+                    "How W is stored: all pairs (dense) or a working set")
+        ->check(CLI::IsMember({"auto", "dense", "working-set"}))
+        ->capture_default_str();
+    app->add_option("--gap", settings->options.gap, "Stop at this relative duality gap")
+        ->check(finite_number)
+        ->check(CLI::Range(1e-14, 1.0))
+        ->capture_default_str();
+    app->add_option("--max-iterations", settings->options.max_iterations, "Stop after so many iterations")
+        ->check(CLI::Range(1, 1 << 30))
+        ->capture_default_str();
+    app->add_option("--max-seconds", settings->options.max_seconds, "Stop after so many seconds")
+        ->check(finite_number)
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
+    return {app, [settings](const Invocation& invocation) { solve_file(invocation.world, *settings); }};
+}
+
+}  // namespace coseg

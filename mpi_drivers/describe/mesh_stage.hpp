@@ -1,0 +1,65 @@
+#pragma once
+// The first stage: meshes are dealt over the ranks, largest first, and each is read and described where it was dealt.
+
+#include <string>
+#include <vector>
+
+#include "io/mesh_files/mesh_list.hpp"
+#include "mpi_drivers/describe/mesh_description.hpp"
+#include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/process/run_state.hpp"
+#include "src/parallel/comm.hpp"
+#include "src/parallel/stage_log.hpp"
+#include "src/patches/patch_numbering.hpp"
+
+namespace coseg {
+
+/// What every rank knows of a mesh; `mesh` counts usable meshes only, in the collection's order.
+struct MeshFacts {
+    std::string name;
+    std::string path;
+    int owner = 0;  ///< the rank that holds its description
+    int input_faces = 0;
+    int working_faces = 0;
+    bool remeshed = false;
+    double overlong_area = 0.0;  ///< see src/remesh/face_suitability.hpp
+    double seconds = 0.0;
+    bool reused = false;  ///< its description came from the state folder
+    std::vector<std::string> warnings;
+};
+
+struct SetAside {
+    std::string path;
+    std::string reason;
+};
+
+struct Collection {
+    std::vector<MeshFacts> meshes;       ///< usable meshes, all ranks
+    std::vector<SetAside> set_aside;     ///< unusable ones, all ranks
+    std::vector<MeshDescription> local;  ///< of this rank, ascending by mesh
+    PatchNumbering numbering{1, {}};     ///< all ranks
+};
+
+/// The meshes that a command line names, in the collection's order, on all ranks. Rank 0 alone asks the file system.
+/// Collective; throws AgreedError(input) as expand_mesh_list does.
+std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs);
+
+/// Collective. Throws AgreedError(input) if no mesh can be used, or with options.strict if any cannot. With a state (may
+/// be null) descriptions are taken from its folder and kept there; throws AgreedError(output) if one cannot be
+/// written, AgreedError(checkpointed) if a rank has been asked to end.
+/// What each rank computes depends on the schedule; the result, apart from `owner` and `seconds`, does not.
+Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
+                               const RunOptions& options, const RunState* state, StageLog& log);
+
+struct DescribeTotals {
+    std::int64_t described = 0;
+    std::int64_t reused = 0;
+    std::vector<SetAside> set_aside;
+    std::vector<std::string> warnings;  ///< the same on all ranks, like the rest
+};
+
+/// Descriptions into the folder of `state`, none of them kept in memory. Collective; throws as describe_collection.
+DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                   const RunOptions& options, const RunState& state, StageLog& log);
+
+}  // namespace coseg

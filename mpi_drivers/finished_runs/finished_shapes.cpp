@@ -1,0 +1,115 @@
+#include "mpi_drivers/finished_runs/finished_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numeric>
+
+#include "io/data_files/label_file.hpp"
+#include "io/mesh_files/mesh_list.hpp"
+#include "io/mesh_files/mesh_reader.hpp"
+#include "src/mesh/polygon_area.hpp"
+#include "src/metrics/assignment.hpp"
+
+namespace coseg {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_truth_labels = 10000;
+
+std::map<std::string, std::string> paths_by_name(const std::vector<std::string>& meshes) {
+    std::map<std::string, std::string> paths;
+    if (meshes.empty()) return paths;
+    for (const MeshEntry& entry : expand_mesh_list(meshes)) paths[entry.name] = entry.path;
+    return paths;
+}
+
+std::string path_of(const FinishedShape& shape, const std::map<std::string, std::string>& paths) {
+    const auto moved = paths.find(shape.name);
+    std::string path = moved != paths.end() ? moved->second : shape.path;
+    if (fs::exists(path)) return path;
+    throw Error(ExitCode::input, path + ": the mesh is not where the run found it; say where with --meshes");
+}
+
+LabelledMesh read_shape(const FinishedRun& run, int number, const FinishedInput& input,
+                        const std::map<std::string, std::string>& paths) {
+    const FinishedShape& shape = run.shapes[static_cast<std::size_t>(number)];
+    LabelledMesh labelled;
+    labelled.number = number;
+    labelled.name = shape.name;
+    labelled.path = path_of(shape, paths);
+    labelled.mesh = read_mesh(labelled.path);
+    const int faces = labelled.mesh.face_count();
+    labelled.part = read_labels(run.folder + "/labels/" + shape.name + ".seg", faces);
+    labelled.patch = read_labels(run.folder + "/patches/" + shape.name + ".seg", faces);
+    const std::string truth = input.truth + "/" + shape.name + ".seg";
+    if (!input.truth.empty() && fs::exists(truth)) labelled.truth = read_labels(truth, faces);
+    return labelled;
+}
+
+int largest_truth_label(const std::vector<LabelledMesh>& shapes) {
+    int largest = -1;
+    for (const LabelledMesh& shape : shapes) {
+        for (const int label : shape.truth) largest = std::max(largest, label);
+    }
+    return largest;
+}
+
+void add_agreement(FixedPointSum& gains, const LabelledMesh& shape, int labels) {
+    const std::vector<double> areas = polygon_areas(shape.mesh);
+    const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+    std::map<std::pair<int, int>, double> shares;
+    for (std::size_t f = 0; f < shape.truth.size(); ++f) {
+        if (shape.truth[f] >= 0 && total > 0.0) shares[{shape.part[f], shape.truth[f]}] += areas[f] / total;
+    }
+    for (const auto& [cell, share] : shares) {
+        gains.add(static_cast<std::size_t>(cell.first) * static_cast<std::size_t>(labels) +
+                      static_cast<std::size_t>(cell.second),
+                  std::min(share, 1.0));
+    }
+}
+
+}  // namespace
+
+FinishedRun read_run(const Comm& comm, const std::string& folder) {
+    FinishedRun run;
+    agree(comm, [&] { run = read_finished_run(folder); });
+    return run;
+}
+
+std::vector<LabelledMesh> read_shapes(const Comm& comm, const FinishedRun& run, const FinishedInput& input) {
+    std::vector<LabelledMesh> shapes;
+    agree(comm, [&] {
+        if (!input.truth.empty() && !fs::is_directory(input.truth)) {
+            throw Error(ExitCode::input, "'" + input.truth +
+                                             "' is not a folder; --truth takes the folder that " +
+                                             "holds one NAME.seg for each mesh NAME");
+        }
+        const std::map<std::string, std::string> paths = paths_by_name(input.meshes);
+        const int count = static_cast<int>(run.shapes.size());
+        for (int number = comm.rank(); number < count; number += comm.size())
+            shapes.push_back(read_shape(run, number, input, paths));
+    });
+    return shapes;
+}
+
+std::vector<int> agree_on_truth(const Comm& comm, const std::vector<LabelledMesh>& shapes, int parts) {
+    const double largest = all_max(comm, static_cast<double>(largest_truth_label(shapes)));
+    if (largest < 0.0) throw AgreedError(ExitCode::input, "no shape has its truth in the folder of --truth");
+    if (largest >= most_truth_labels) {
+        throw AgreedError(ExitCode::input, "the truth has labels of " + std::to_string(most_truth_labels) +
+                                               " and more; number them from 0");
+    }
+    const int labels = static_cast<int>(largest) + 1;
+    FixedPointSum gains(static_cast<std::size_t>(parts) * static_cast<std::size_t>(labels), 1.0);
+    for (const LabelledMesh& shape : shapes) add_agreement(gains, shape, labels);
+    const std::vector<double> sums = gains.all_sum(comm);
+    return best_assignment(
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+            sums.data(), parts, labels));
+}
+
+}  // namespace coseg

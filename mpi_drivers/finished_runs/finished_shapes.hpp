@@ -1,0 +1,42 @@
+#pragma once
+// The shapes of a finished run with their labels, read back and dealt over the ranks.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/folders/finished_run.hpp"
+#include "src/mesh/polygon_mesh.hpp"
+#include "src/parallel/comm.hpp"
+
+namespace coseg {
+
+struct LabelledMesh {
+    int number = 0;  ///< in the run
+    std::string name;
+    std::string path;
+    PolygonMesh mesh;
+    std::vector<int> part;   ///< per face of the file
+    std::vector<int> patch;  ///< likewise
+    std::vector<int> truth;  ///< likewise; empty where there is none
+};
+
+struct FinishedInput {
+    std::string folder;               ///< of the run
+    std::vector<std::string> meshes;  ///< where the meshes are now; empty: where the run found them
+    std::string truth;                ///< folder of NAME.seg; empty: none
+};
+
+/// The run's report on every rank. Collective; throws AgreedError(input).
+FinishedRun read_run(const Comm& comm, const std::string& folder);
+
+/// This rank's share of the shapes, ascending by number: every ranks-th one. Collective; throws AgreedError(input) if a
+/// mesh is gone, or has another number of faces than it was segmented with.
+std::vector<LabelledMesh> read_shapes(const Comm& comm, const FinishedRun& run, const FinishedInput& input);
+
+/// Which truth label each part stands for: the one-to-one assignment that covers the most area over all shapes with truth
+/// (each shape counting the same), as `coseg score` has it; -1 for a part left over. K entries. Collective; throws
+/// AgreedError(input) if no shape has truth.
+std::vector<int> agree_on_truth(const Comm& comm, const std::vector<LabelledMesh>& shapes, int parts);
+
+}  // namespace coseg

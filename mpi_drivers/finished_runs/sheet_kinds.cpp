@@ -1,0 +1,246 @@
+#include "mpi_drivers/finished_runs/sheet_kinds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <set>
+
+#include "src/mesh/polygon_area.hpp"
+#include "src/pictures/color_scale.hpp"
+#include "src/pictures/part_colors.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr Color wrong = {0xD8, 0x2C, 0x2C};
+constexpr Color right = {0xC4, 0xCB, 0xD2};
+constexpr Color without_truth = {0xF2, 0xE3, 0xB3};
+
+std::string fixed(double value, int decimals) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+DrawnShape drawn(const LabelledMesh& shape, const std::vector<Color>& colors,
+                 const std::string& remark = "") {
+    return {shape.number, shape.name + (remark.empty() ? "" : "  " + remark),
+            picture_mesh(shape.mesh, colors)};
+}
+
+/// Per label of the truth the part that stands for it; labels without one get numbers behind the parts.
+std::vector<int> part_of_label(const std::vector<int>& label_of_part, int labels) {
+    std::vector<int> parts(static_cast<std::size_t>(labels), -1);
+    for (std::size_t p = 0; p < label_of_part.size(); ++p) {
+        if (label_of_part[p] >= 0 && label_of_part[p] < labels)
+            parts[static_cast<std::size_t>(label_of_part[p])] = static_cast<int>(p);
+    }
+    int next = static_cast<int>(label_of_part.size());
+    for (int& part : parts) part = part < 0 ? next++ : part;
+    return parts;
+}
+
+std::vector<Color> truth_colors(const LabelledMesh& shape, const std::vector<int>& label_of_part) {
+    const int largest = shape.truth.empty() ? 0 : *std::max_element(shape.truth.begin(), shape.truth.end());
+    const std::vector<int> parts = part_of_label(label_of_part, std::max(largest, 0) + 1);
+    std::vector<Color> colors(static_cast<std::size_t>(shape.mesh.face_count()), without_truth);
+    for (std::size_t f = 0; f < shape.truth.size(); ++f) {
+        if (shape.truth[f] >= 0) colors[f] = part_color(parts[static_cast<std::size_t>(shape.truth[f])]);
+    }
+    return colors;
+}
+
+/// Labels that occur on any rank, ascending. Collective.
+std::vector<int> labels_in_truth(const Comm& comm, const std::vector<LabelledMesh>& shapes) {
+    std::set<int> local;
+    for (const LabelledMesh& shape : shapes) local.insert(shape.truth.begin(), shape.truth.end());
+    const std::vector<int> sent(local.lower_bound(0), local.end());
+    const std::vector<int> all = all_gather(comm, std::span<const int>(sent));
+    const std::set<int> distinct(all.begin(), all.end());
+    return {distinct.begin(), distinct.end()};
+}
+
+/// "seat (label 1)", or "label 1" where it has no name.
+std::string label_text(const LabelNames& names, int label) {
+    const std::string number = "label " + std::to_string(label);
+    const auto name = names.find(label);
+    return name == names.end() ? number : name->second + " (" + number + ")";
+}
+
+/// A swatch for each part, then one for each label that no part stands for.
+std::vector<LegendEntry> truth_legend(const PartKey& key, const std::vector<int>& labels) {
+    std::vector<LegendEntry> legend;
+    for (std::size_t p = 0; p < key.label_of_part.size(); ++p) {
+        const int label = key.label_of_part[p];
+        legend.push_back(
+            {part_color(static_cast<int>(p)),
+             (label < 0 ? "no label" : label_text(key.names, label)) + " as part " + std::to_string(p)});
+    }
+    const std::vector<int> parts = part_of_label(key.label_of_part, labels.empty() ? 0 : labels.back() + 1);
+    const int count = static_cast<int>(key.label_of_part.size());
+    for (const int label : labels) {
+        const int part = parts[static_cast<std::size_t>(label)];
+        if (part >= count) legend.push_back({part_color(part), label_text(key.names, label) + ", no part"});
+    }
+    return legend;
+}
+
+/// "part 0  42.0 %" becomes "part 0  seat  42.0 %".
+void name_parts(std::vector<LegendEntry>& legend, const std::vector<double>& part_area, const PartKey& key) {
+    for (std::size_t p = 0; p < legend.size(); ++p) {
+        const int label = key.label_of_part.empty() ? static_cast<int>(p) : key.label_of_part[p];
+        const auto name = key.names.find(label);
+        const std::string middle = name == key.names.end() ? "" : name->second + "  ";
+        legend[p].text = "part " + std::to_string(p) + "  " + middle + fixed(100.0 * part_area[p], 1) + " %";
+    }
+}
+
+DrawnShape drawn_errors(const LabelledMesh& shape, const std::vector<int>& label_of_part) {
+    std::vector<Color> colors(static_cast<std::size_t>(shape.mesh.face_count()), without_truth);
+    if (shape.truth.empty()) return drawn(shape, colors);
+    const std::vector<double> areas = polygon_areas(shape.mesh);
+    double right_area = 0.0;
+    for (std::size_t f = 0; f < colors.size(); ++f) {
+        if (shape.truth[f] < 0) continue;
+        const bool is_right = label_of_part[static_cast<std::size_t>(shape.part[f])] == shape.truth[f];
+        colors[f] = is_right ? right : wrong;
+        if (is_right) right_area += areas[f];
+    }
+    const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+    return drawn(shape, colors, total > 0.0 ? fixed(100.0 * right_area / total, 1) + " %" : "");
+}
+
+/// The value below which `share` of the values lie.
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0.0;
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
+struct ValueRange {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// The mean over shapes of each shape's 2nd and 98th percentile, summed in the order of the shapes.
+ValueRange agreed_range(const Comm& comm, const std::vector<LabelledMesh>& shapes,
+                        const std::vector<std::vector<double>>& values, std::size_t total) {
+    std::vector<double> rows;
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+        rows.push_back(shapes[k].number);
+        rows.push_back(quantile(values[k], 0.02));
+        rows.push_back(quantile(values[k], 0.98));
+    }
+    const std::vector<double> all = all_gather(comm, std::span<const double>(rows));
+    std::vector<ValueRange> ranges(total);
+    for (std::size_t k = 0; k + 2 < all.size(); k += 3)
+        ranges[static_cast<std::size_t>(all[k])] = {all[k + 1], all[k + 2]};
+    ValueRange mean;
+    for (const ValueRange& range : ranges) {
+        mean.low += range.low / static_cast<double>(total);
+        mean.high += range.high / static_cast<double>(total);
+    }
+    return mean;
+}
+
+std::string significant(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string as_words(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
+
+DrawnKind drawn_descriptor(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
+                           std::size_t feature) {
+    std::vector<std::vector<double>> values;
+    agree(comm, [&] {
+        for (const LabelledMesh& shape : shapes) values.push_back(face_descriptors(run, shape)[feature]);
+    });
+    const ValueRange range = agreed_range(comm, shapes, values, run.shapes.size());
+    DrawnKind kind;
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+        std::vector<Color> colors;
+        for (const double value : values[k]) colors.push_back(scale_color(value, range.low, range.high));
+        kind.shapes.push_back(drawn(shapes[k], colors));
+    }
+    kind.heading = {.title = as_words(feature_names[feature]),
+                    .subtitle = counted(run.shapes.size(), "shape", "shapes"),
+                    .legend = {},
+                    .scale = ColorScaleBar{significant(range.low), significant(range.high)}};
+    return kind;
+}
+
+}  // namespace
+
+std::vector<std::string> sheet_kinds() {
+    std::vector<std::string> kinds = {"parts", "patches", "truth", "errors"};
+    kinds.insert(kinds.end(), feature_names.begin(), feature_names.end());
+    return kinds;
+}
+
+SheetHeading parts_heading(const std::vector<double>& part_area, int shapes) {
+    SheetHeading heading;
+    heading.title = counted(part_area.size(), "part", "parts");
+    heading.subtitle = counted(static_cast<std::size_t>(shapes), "shape", "shapes");
+    for (std::size_t p = 0; p < part_area.size(); ++p) {
+        heading.legend.push_back(
+            {part_color(static_cast<int>(p)),
+             "part " + std::to_string(p) + "  " + fixed(100.0 * part_area[p], 1) + " %"});
+    }
+    return heading;
+}
+
+std::vector<Color> colors_of(const std::vector<int>& labels) {
+    std::vector<Color> colors;
+    colors.reserve(labels.size());
+    for (const int label : labels) colors.push_back(part_color(label));
+    return colors;
+}
+
+DrawnKind drawn_kind(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
+                     const std::string& kind, const PartKey& key) {
+    const auto feature = std::find(feature_names.begin(), feature_names.end(), kind);
+    if (feature != feature_names.end())
+        return drawn_descriptor(comm, run, shapes, static_cast<std::size_t>(feature - feature_names.begin()));
+    DrawnKind result;
+    result.heading = parts_heading(run.part_area, static_cast<int>(run.shapes.size()));
+    if (kind == "parts") {
+        name_parts(result.heading.legend, run.part_area, key);
+    } else if (kind == "patches") {
+        result.heading.title = "patches";
+        result.heading.legend.clear();
+    } else if (kind == "truth") {
+        result.heading.title = "truth";
+        result.heading.legend = truth_legend(key, labels_in_truth(comm, shapes));
+    } else if (kind == "errors") {
+        result.heading.title = "errors";
+        result.heading.legend = {{right, "right"}, {wrong, "wrong"}, {without_truth, "no truth"}};
+    }
+    agree(comm, [&] {
+        for (const LabelledMesh& shape : shapes) {
+            if (kind == "truth") {
+                result.shapes.push_back(drawn(shape, truth_colors(shape, key.label_of_part)));
+            } else if (kind == "errors") {
+                result.shapes.push_back(drawn_errors(shape, key.label_of_part));
+            } else {
+                result.shapes.push_back(
+                    drawn(shape, colors_of(kind == "patches" ? shape.patch : shape.part)));
+            }
+        }
+    });
+    return result;
+}
+
+}  // namespace coseg

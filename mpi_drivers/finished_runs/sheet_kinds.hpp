@@ -1,0 +1,39 @@
+#pragma once
+// The kinds of contact sheets: what colours the faces, what the legend says.
+
+#include <string>
+#include <vector>
+
+#include "io/data_files/name_file.hpp"
+#include "mpi_drivers/finished_runs/face_descriptors.hpp"
+#include "mpi_drivers/finished_runs/finished_shapes.hpp"
+#include "mpi_drivers/finished_runs/sheet_stage.hpp"
+
+namespace coseg {
+
+/// parts, patches, truth, errors and the names of the descriptors.
+std::vector<std::string> sheet_kinds();
+
+/// "20 shapes, 5 parts", and a swatch and the mean share of the area for each part.
+SheetHeading parts_heading(const std::vector<double>& part_area, int shapes);
+
+/// The colour of each face by its part, or by its patch.
+std::vector<Color> colors_of(const std::vector<int>& labels);
+
+/// What is known of the parts besides the run.
+struct PartKey {
+    std::vector<int> label_of_part;  ///< from agree_on_truth; empty: no truth is given
+    LabelNames names;                ///< of the truth's labels, or of the parts if no truth is given
+};
+
+/// The shapes drawn as `kind` asks, on this rank, and the heading, on all. Truth and errors need label_of_part. Truth takes
+/// the colour of the part that stands for it, labels for which none stands take the colours behind those of the parts.
+/// Collective; throws AgreedError.
+struct DrawnKind {
+    std::vector<DrawnShape> shapes;
+    SheetHeading heading;
+};
+DrawnKind drawn_kind(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
+                     const std::string& kind, const PartKey& key);
+
+}  // namespace coseg

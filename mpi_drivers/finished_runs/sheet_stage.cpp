@@ -1,0 +1,184 @@
+#include "mpi_drivers/finished_runs/sheet_stage.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/reports/png_writer.hpp"
+#include "src/pictures/shape_picture.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr int looked_at = 48;  // shapes that a view is chosen from
+constexpr int thumbnail = 112;
+
+int tile_size(int shapes) {
+    if (shapes <= 12) return 360;
+    return shapes <= 24 ? 300 : 220;
+}
+
+UpAxis agreed_up(const Comm& comm, const std::vector<const DrawnShape*>& looked) {
+    FixedPointSum shares(5, 1.0);
+    for (const DrawnShape* shape : looked) {
+        const Eigen::Vector3d share = standing_shares(shape->picture.mesh);
+        for (int axis = 0; axis < 3; ++axis) shares.add(static_cast<std::size_t>(axis), share[axis]);
+        shares.add(3, mirror_differences(shape->picture.mesh).y());
+        shares.add(4, 1.0);
+    }
+    const std::vector<double> sums = shares.all_sum(comm);
+    // Most files have y up, but y is the breadth rather than the height where the shapes are alike to both sides.
+    constexpr double alike = 0.04;
+    const double preference = sums[3] >= alike * sums[4] ? 0.65 : 1.0;
+    if (sums[1] >= preference * std::max(sums[0], sums[2])) return UpAxis::y;
+    return sums[2] >= sums[0] ? UpAxis::z : UpAxis::x;
+}
+
+View agreed_widest(const Comm& comm, const std::vector<const DrawnShape*>& looked, UpAxis up) {
+    const std::vector<View> views = candidate_views({up});
+    FixedPointSum shares(views.size(), 1.0);
+    for (const DrawnShape* shape : looked) {
+        const std::vector<double> areas = outline_areas(shape->picture.mesh, views);
+        const double largest = *std::max_element(areas.begin(), areas.end());
+        for (std::size_t v = 0; v < views.size() && largest > 0.0; ++v) shares.add(v, areas[v] / largest);
+    }
+    const std::vector<double> sums = shares.all_sum(comm);
+    const double nearly = 0.98 * *std::max_element(sums.begin(), sums.end());
+    std::size_t first = 0;
+    while (sums[first] < nearly) ++first;
+    return views[first];
+}
+
+/// Pictures of one page on the root, in the order of the shapes; elsewhere empty.
+std::vector<SheetTile> gathered_tiles(const Comm& comm, const std::vector<int>& numbers_local,
+                                      const std::vector<SheetTile>& tiles_local, int size) {
+    const std::vector<int> numbers = all_gather(comm, std::span<const int>(numbers_local));
+    std::vector<std::string> captions_local;
+    std::vector<std::uint8_t> bytes_local;
+    for (const SheetTile& tile : tiles_local) {
+        captions_local.push_back(tile.caption);
+        bytes_local.insert(bytes_local.end(), tile.picture.bytes.begin(), tile.picture.bytes.end());
+    }
+    const std::vector<std::string> captions = all_gather_texts(comm, captions_local);
+    const int own = static_cast<int>(bytes_local.size());
+    const std::vector<int> counts = all_gather(comm, std::span<const int>(&own, 1));
+    std::vector<int> begins(counts.size(), 0);
+    for (std::size_t r = 1; r < counts.size(); ++r) begins[r] = begins[r - 1] + counts[r - 1];
+    std::vector<std::uint8_t> bytes(comm.is_root() ? static_cast<std::size_t>(begins.back() + counts.back())
+                                                   : 0);
+    MPI_Gatherv(bytes_local.data(), own, MPI_UINT8_T, bytes.data(), counts.data(), begins.data(), MPI_UINT8_T,
+                0, comm.raw());
+    if (!comm.is_root()) return {};
+
+    const int first = *std::min_element(numbers.begin(), numbers.end());
+    std::vector<SheetTile> tiles(numbers.size());
+    auto next = bytes.begin();
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        SheetTile& tile = tiles[static_cast<std::size_t>(numbers[k] - first)];
+        tile = {Image(size, size, picture_background), captions[k]};
+        std::copy_n(next, tile.picture.bytes.size(), tile.picture.bytes.begin());
+        next += static_cast<std::ptrdiff_t>(tile.picture.bytes.size());
+    }
+    return tiles;
+}
+
+/// Shapes begin..end-1, drawn where they are, on the root.
+std::vector<SheetTile> drawn_page(const Comm& comm, const SheetRequest& request,
+                                  const std::vector<DrawnShape>& shapes_local, int begin, int end, int size) {
+    std::vector<int> numbers;
+    std::vector<SheetTile> tiles;
+    agree(comm, [&] {
+        PictureOptions options;
+        options.size = size;
+        for (const DrawnShape& shape : shapes_local) {
+            if (shape.number < begin || shape.number >= end) continue;
+            numbers.push_back(shape.number);
+            tiles.push_back({shape_picture(shape.picture, request.view, options), shape.caption});
+        }
+    });
+    return gathered_tiles(comm, numbers, tiles, size);
+}
+
+std::string page_file(const std::string& kind, int page) {
+    return "sheets/" + kind + "_" + std::to_string(page + 1) + ".png";
+}
+
+SheetHeading page_heading(const SheetRequest& request, int page, int pages) {
+    SheetHeading heading = request.heading;
+    heading.subtitle += ", page " + std::to_string(page + 1) + " of " + std::to_string(pages);
+    return heading;
+}
+
+}  // namespace
+
+View agree_on_view(const Comm& comm, const std::vector<DrawnShape>& shapes_local, const ViewChoice& choice) {
+    std::vector<const DrawnShape*> looked;
+    const std::int64_t count = all_sum(comm, static_cast<std::int64_t>(shapes_local.size()));
+    const auto stride = static_cast<int>((count + looked_at - 1) / looked_at);
+    for (const DrawnShape& shape : shapes_local) {
+        if (shape.number % stride == 0 && shape.picture.mesh.face_count() > 0) looked.push_back(&shape);
+    }
+    UpAxis up = UpAxis::y;
+    if (choice.up == "auto") {
+        up = agreed_up(comm, looked);
+    } else {
+        up = choice.up == "x" ? UpAxis::x : choice.up == "y" ? UpAxis::y : UpAxis::z;
+    }
+    if (choice.view == "auto") return agreed_widest(comm, looked, up);
+    const std::optional<View> view = named_view(choice.view, up);
+    if (view) return *view;
+    throw AgreedError(ExitCode::usage,
+                      "--view: '" + choice.view +
+                          "' is not a view; take auto, front, back, left, right, top, bottom, "
+                          "corner, or AZIMUTH,ELEVATION in degrees");
+}
+
+std::string sheet_file(const std::string& kind) {
+    return kind == "parts" ? "contact_sheet.png" : "contact_sheet_" + kind + ".png";
+}
+
+std::vector<std::string> write_sheets(const Comm& comm, const std::string& folder,
+                                      const SheetRequest& request,
+                                      const std::vector<DrawnShape>& shapes_local, int shape_count) {
+    const int pages = (shape_count + shapes_a_page - 1) / shapes_a_page;
+    const int size = tile_size(shape_count);
+    const int index_step = (shape_count + shapes_an_index - 1) / shapes_an_index;
+    std::vector<std::string> written;
+    std::vector<SheetTile> thumbnails;
+    const auto put = [&](const std::string& file, const std::vector<SheetTile>& tiles,
+                         const SheetHeading& heading, int columns) {
+        write_png(folder + "/" + file, contact_sheet(tiles, heading, columns));
+        written.push_back(file);
+    };
+    for (int page = 0; page < pages; ++page) {
+        const int begin = page * shapes_a_page;
+        const int end = std::min(shape_count, begin + shapes_a_page);
+        const std::vector<SheetTile> tiles = drawn_page(comm, request, shapes_local, begin, end, size);
+        agree(comm, [&] {
+            if (!comm.is_root()) return;
+            if (pages == 1) {
+                put(sheet_file(request.kind), tiles, request.heading, sheet_columns(end - begin));
+                return;
+            }
+            std::filesystem::create_directories(folder + "/sheets");
+            put(page_file(request.kind, page), tiles, page_heading(request, page, pages), 10);
+            for (std::size_t k = 0; k < tiles.size(); ++k) {
+                if ((begin + static_cast<int>(k)) % index_step != 0) continue;
+                thumbnails.push_back({shrunk(tiles[k].picture, thumbnail, thumbnail), tiles[k].caption});
+            }
+        });
+    }
+    if (pages > 1) {
+        agree(comm, [&] {
+            if (!comm.is_root()) return;
+            SheetHeading heading = request.heading;
+            heading.subtitle += ", " + std::to_string(pages) + " pages in sheets/";
+            if (index_step > 1) heading.subtitle += ", here 1 in " + std::to_string(index_step);
+            put(sheet_file(request.kind), thumbnails, heading,
+                sheet_columns(static_cast<int>(thumbnails.size())));
+        });
+    }
+    return written;
+}
+
+}  // namespace coseg

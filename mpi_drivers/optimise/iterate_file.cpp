@@ -1,0 +1,172 @@
+#include "mpi_drivers/optimise/iterate_file.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <tuple>
+
+#include "io/files/hdf5_file.hpp"
+#include "mpi_drivers/process/source_fingerprint.hpp"
+
+namespace coseg {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* iterate_format = "coseg solver iterate";
+constexpr int iterate_version = 3;
+
+std::string iterate_name(int generation, BlockRange columns) {
+    char text[80];
+    std::snprintf(text, sizeof text, "iterate-%06d-%010lld-%010lld.h5", generation,
+                  static_cast<long long>(columns.begin), static_cast<long long>(columns.end));
+    return text;
+}
+
+std::optional<IterateFile> named(const fs::path& path) {
+    const std::string name = path.filename().string();
+    IterateFile file{.generation = 0, .columns = {}, .path = path.string()};
+    long long begin = 0;
+    long long end = 0;
+    if (std::sscanf(name.c_str(), "iterate-%d-%lld-%lld.h5", &file.generation, &begin, &end) != 3)
+        return std::nullopt;
+    file.columns = {begin, end};
+    if (name != iterate_name(file.generation, file.columns)) return std::nullopt;
+    return file;
+}
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& part, std::int64_t from, std::int64_t to) {
+    all.insert(all.end(), part.begin() + from, part.begin() + to);
+}
+
+}  // namespace
+
+std::string iterate_path(const std::string& folder, int generation, BlockRange columns) {
+    return folder + "/" + iterate_name(generation, columns);
+}
+
+std::vector<IterateFile> iterate_files(const std::string& folder) {
+    std::vector<std::string> paths;
+    std::error_code cause;
+    for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end; entry.increment(cause))
+        paths.push_back(entry->path().string());
+    return iterate_files_of(paths);
+}
+
+std::vector<IterateFile> iterate_files_of(const std::vector<std::string>& paths) {
+    std::vector<IterateFile> files;
+    for (const std::string& path : paths) {
+        if (std::optional<IterateFile> file = named(path)) files.push_back(*std::move(file));
+    }
+    std::sort(files.begin(), files.end(), [](const IterateFile& a, const IterateFile& b) {
+        return std::tuple(-a.generation, a.columns.begin, a.columns.end) <
+               std::tuple(-b.generation, b.columns.begin, b.columns.end);
+    });
+    return files;
+}
+
+bool is_complete(const std::vector<IterateFile>& files, std::int64_t size) {
+    std::int64_t next = 0;
+    for (const IterateFile& file : files) {
+        if (file.columns.begin != next) return false;
+        next = file.columns.end;
+    }
+    return next == size;
+}
+
+void write_iterate(const std::string& path, const SolveIterate& iterate, int features) {
+    // One name for each field: a new one does not compile until it has been thought of here.
+    const auto& [columns, offsets, rows, weights, prices, spectral, inner_gap, lower_bound, iterations,
+                 passes, proximal, history, finished, objective, residual, reason] = iterate;
+    const auto& [step, recent, count, inner_iterations] = spectral;
+    const auto& [next, reach, largest_reach, sufficient_gap] = proximal;
+    Hdf5Writer file(path, iterate_format, iterate_version);
+    file.attribute("source_fingerprint", source_fingerprint());
+    file.attribute("features", std::int64_t{features});
+    file.summary("solver, " + std::string(finished ? "end" : "iterate") + ", columns " +
+                 std::to_string(columns.begin) + " to " + std::to_string(columns.end) + ", " +
+                 std::to_string(rows.size()) + " pairs");
+    file.write("columns", std::vector<std::int64_t>{columns.begin, columns.end});
+    file.write("offsets", offsets);
+    file.write("rows", rows);
+    file.write("weights", weights, {rows.size(), static_cast<std::uint64_t>(features)});
+    file.write("prices", prices);
+    file.write("recent", std::vector<double>(recent.begin(), recent.end()));
+    file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual, reach,
+                                              largest_reach, sufficient_gap});
+    file.write("counts", std::vector<std::int64_t>{count, inner_iterations, iterations, passes,
+                                                   finished ? 1 : 0, reason, next});
+    std::vector<std::int64_t> steps;
+    std::vector<double> bounds;
+    for (const auto& [pass, so_far, reached, bound, gap, pairs] : history) {
+        steps.insert(steps.end(), {pass, so_far, pairs});
+        bounds.insert(bounds.end(), {reached, bound, gap});
+    }
+    file.write("history/counts", steps, {history.size(), 3});
+    file.write("history/numbers", bounds, {history.size(), 3});
+    file.commit();
+}
+
+SolveIterate read_iterate(const std::string& path) {
+    const Hdf5Reader file(path, iterate_format, iterate_version);
+    const auto columns = file.read<std::int64_t>("columns");
+    const auto numbers = file.read<double>("numbers");
+    const auto counts = file.read<std::int64_t>("counts");
+    const auto recent = file.read<double>("recent");
+    SolveIterate iterate;
+    iterate.columns = {columns.at(0), columns.at(1)};
+    iterate.offsets = file.read<std::int64_t>("offsets");
+    iterate.rows = file.read<std::int32_t>("rows");
+    iterate.weights = file.read<double>("weights");
+    iterate.prices = file.read<double>("prices");
+    iterate.spectral.step = numbers.at(0);
+    std::copy_n(recent.begin(), std::min(recent.size(), iterate.spectral.recent.size()),
+                iterate.spectral.recent.begin());
+    iterate.spectral.count = counts.at(0);
+    iterate.spectral.iterations = static_cast<int>(counts.at(1));
+    iterate.inner_gap = numbers.at(1);
+    iterate.lower_bound = numbers.at(2);
+    iterate.iterations = static_cast<int>(counts.at(2));
+    iterate.passes = static_cast<int>(counts.at(3));
+    iterate.finished = counts.at(4) != 0;
+    iterate.objective = numbers.at(3);
+    iterate.residual = numbers.at(4);
+    iterate.reason = static_cast<int>(counts.at(5));
+    iterate.proximal = {static_cast<int>(counts.at(6)), numbers.at(5), numbers.at(6), numbers.at(7)};
+    const auto steps = file.read<std::int64_t>("history/counts");
+    const auto bounds = file.read<double>("history/numbers");
+    for (std::size_t k = 0; k + 2 < steps.size(); k += 3) {
+        iterate.history.push_back({static_cast<int>(steps[k]), static_cast<int>(steps[k + 1]), bounds.at(k),
+                                   bounds.at(k + 1), bounds.at(k + 2), steps[k + 2]});
+    }
+    return iterate;
+}
+
+SolveIterate cut_to(const std::vector<SolveIterate>& parts, BlockRange wanted, int features) {
+    SolveIterate result = parts.empty() ? SolveIterate{} : parts.front();  // what is the same on all ranks
+    result.columns = wanted;
+    result.offsets = {0};
+    result.rows.clear();
+    result.weights.clear();
+    result.prices.clear();
+    for (const SolveIterate& part : parts) {
+        const std::int64_t begin = std::max(part.columns.begin, wanted.begin) - part.columns.begin;
+        const std::int64_t end = std::min(part.columns.end, wanted.end) - part.columns.begin;
+        if (begin >= end) continue;
+        const std::int64_t first = part.offsets[static_cast<std::size_t>(begin)];
+        const std::int64_t last = part.offsets[static_cast<std::size_t>(end)];
+        for (std::int64_t c = begin + 1; c <= end; ++c) {
+            result.offsets.push_back(static_cast<std::int64_t>(result.rows.size()) +
+                                     part.offsets[static_cast<std::size_t>(c)] - first);
+        }
+        append(result.rows, part.rows, first, last);
+        append(result.weights, part.weights, first * features, last * features);
+        append(result.prices, part.prices, begin * features, end * features);
+    }
+    return result;
+}
+
+}  // namespace coseg

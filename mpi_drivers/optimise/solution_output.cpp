@@ -1,0 +1,74 @@
+#include "mpi_drivers/optimise/solution_output.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "io/data_files/feature_file.hpp"
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+std::vector<ReportPass> report_passes(const SolveHistory& history) {
+    std::vector<ReportPass> passes;
+    for (const HistoryRow& row : history) {
+        passes.push_back(
+            {row.pass, row.iterations, row.objective, row.lower_bound, row.relative_gap, row.working_pairs});
+    }
+    return passes;
+}
+
+std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result) {
+    const auto history = nlohmann::ordered_json::parse(history_json(report_passes(result.history)));
+    const nlohmann::ordered_json json = {{"objective", result.objective},
+                                         {"lower_bound", result.lower_bound},
+                                         {"relative_gap", result.relative_gap},
+                                         {"iterations", result.iterations},
+                                         {"nonzero_groups", result.nonzero_groups},
+                                         {"reason", to_string(result.reason)},
+                                         {"objective_at_zero", result.objective_at_zero},
+                                         {"kkt_residual", result.kkt_residual},
+                                         {"working_pairs", result.working_pairs},
+                                         {"passes", result.passes},
+                                         {"allowed_pairs", allowed_pair_count(problem)},
+                                         {"n", problem.size()},
+                                         {"h", problem.feature_count()},
+                                         {"lambda", problem.lambda},
+                                         {"alpha", problem.alpha},
+                                         {"beta", problem.beta},
+                                         {"history", history}};
+    return json.dump();
+}
+
+void write_coefficients(const Comm& comm, const SolveResult& result, const std::string& path) {
+    if (path.empty()) return;
+    const SparseCoefficients& w = result.coefficients;
+    std::vector<std::int64_t> lengths;
+    for (std::size_t c = 0; c + 1 < w.offsets.size(); ++c) lengths.push_back(w.offsets[c + 1] - w.offsets[c]);
+    CoefficientFile file{
+        w.size, w.features, {0}, {}, {}, result.objective, result.lower_bound, to_string(result.reason)};
+    for (const std::int64_t length : all_gather(comm, std::span<const std::int64_t>(lengths)))
+        file.offsets.push_back(file.offsets.back() + length);
+    file.rows = all_gather(comm, std::span<const int>(w.rows));
+    file.values = all_gather(comm, std::span<const double>(w.values));
+    agree(comm, [&] {
+        if (comm.is_root()) write_coefficient_file(path, file);
+    });
+}
+
+void refuse_unreached_gap(const SolveResult& result, double gap, const std::string& subject) {
+    if (result.reason == StopReason::gap_reached || result.reason == StopReason::residual_reached) return;
+    throw AgreedError(ExitCode::not_converged,
+                      subject + ": the gap of " + nlohmann::json(gap).dump() + " was not reached (" +
+                          to_string(result.reason) + ", gap " + nlohmann::json(result.relative_gap).dump() +
+                          "); raise --max-iterations or --max-seconds, or ask for a larger --gap");
+}
+
+void refuse_empty_solution(const SolveResult& result, const std::string& subject) {
+    if (result.nonzero_groups > 0) return;
+    const bool certified = result.reason == StopReason::gap_reached;
+    throw AgreedError(
+        ExitCode::input,
+        subject + (certified ? ": the optimum is W = 0 (certified)" : ": the coefficients are all 0") +
+            ", no item is explained by others, so there is nothing to cut; lower alpha, beta or lambda");
+}
+
+}  // namespace coseg

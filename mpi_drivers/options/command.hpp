@@ -1,0 +1,44 @@
+#pragma once
+// What every subcommand of coseg is: a set of options added to the command line and a function to run.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/parallel/comm.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace coseg {
+
+/// What the command line gives beside the subcommand's own options.
+struct Invocation {
+    const Comm& world;
+    std::vector<std::string> petsc_arguments;  ///< whatever follows `--`
+};
+
+struct Command {
+    CLI::App* app = nullptr;  ///< parsed() tells whether the user asked for it
+    std::function<void(const Invocation& invocation)>
+        run;  ///< throws Error; AgreedError where all ranks agree
+};
+
+/// Each adds its subcommand to `parent`; options are validated by CLI11 (type, range) before run is called.
+Command add_run_command(CLI::App& parent);
+Command add_generate_command(CLI::App& parent);
+Command add_score_command(CLI::App& parent);
+Command add_solve_command(CLI::App& parent);
+Command add_render_command(CLI::App& parent);
+Command add_cluster_command(CLI::App& parent);
+Command add_report_command(CLI::App& parent);
+Command add_export_command(CLI::App& parent);
+Command add_man_command(CLI::App& parent);
+Command add_completion_command(CLI::App& parent);
+Command add_describe_command(CLI::App& parent);
+Command add_state_command(CLI::App& parent);
+Command add_assign_command(CLI::App& parent);
+
+}  // namespace coseg

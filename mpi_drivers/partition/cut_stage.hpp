@@ -1,0 +1,25 @@
+#pragma once
+// From coefficients to the part of every patch: hands the relations of patches, in global numbers, to the cut.
+
+#include "mpi_drivers/describe/feature_stage.hpp"
+#include "mpi_drivers/describe/mesh_stage.hpp"
+#include "mpi_drivers/options/run_options.hpp"
+#include "solvers/partition/co_segmentation_cut.hpp"
+#include "solvers/subspace/coefficients.hpp"
+#include "src/parallel/comm.hpp"
+
+namespace coseg {
+
+/// What ties the patches of this rank's meshes together, in global numbers.
+std::vector<PatchRelation> local_neighbors(const Collection& collection);
+std::vector<OverlapRelation> local_overlaps(const Collection& collection);
+
+/// What the choice among several starts looks at, from the histograms; empty with a single start. Cuts find it in
+/// `features.choice`, or make it anew.
+std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, const RunOptions& options);
+
+/// Collective. K must not exceed the number of patches. Throws AgreedError(not_converged).
+CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                         const SparseCoefficients& coefficients, const RunOptions& options);
+
+}  // namespace coseg

@@ -1,0 +1,202 @@
+#include "mpi_drivers/partition/run_model.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <span>
+
+#include "io/files/hdf5_file.hpp"
+#include "mpi_drivers/process/source_fingerprint.hpp"
+#include "solvers/subspace/mesh_links.hpp"
+#include "src/base/error.hpp"
+#include "src/base/seeded_random.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// The meshes to keep, ascending: all of a small collection, else those whose names have the least hashes.
+std::vector<int> kept_meshes(const std::vector<MeshFacts>& meshes, std::uint64_t seed) {
+    std::vector<int> order(meshes.size());
+    std::iota(order.begin(), order.end(), 0);
+    if (order.size() <= static_cast<std::size_t>(meshes_linked_to_all)) return order;
+    const auto hash = [&](int m) {
+        return hash_words({seed, hash_text(meshes[static_cast<std::size_t>(m)].name)});
+    };
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return std::pair(hash(a), a) < std::pair(hash(b), b); });
+    order.resize(static_cast<std::size_t>(default_links));
+    std::sort(order.begin(), order.end());
+    return order;
+}
+
+void write_options(Hdf5Writer& file, const RunOptions& options) {
+    file.attribute("source_fingerprint", source_fingerprint());
+    file.attribute("parts", std::int64_t{options.parts});
+    file.attribute("seed", static_cast<std::int64_t>(options.seed));
+    file.attribute("remesh", options.remesh);
+    file.attribute("patches", std::int64_t{options.patches});
+    file.attribute("oversegmentations", std::int64_t{options.oversegmentations});
+    file.attribute("cut-noise", options.cut_noise);
+    file.attribute("geodesic-samples", std::int64_t{options.geodesic_samples});
+    file.attribute("bins", std::int64_t{options.bins});
+    file.attribute("word-sets", std::int64_t{options.word_sets});
+    file.attribute("histogram", options.histogram);
+    file.attribute("ranges", options.ranges);
+    file.write("feature-weights", options.feature_weights);
+    file.attribute("alpha", options.alpha);
+    file.attribute("beta", options.beta);
+    file.attribute("lambda", options.lambda);
+    file.attribute("gap", options.gap);
+    file.attribute("refine", options.refine);
+}
+
+RunOptions read_options(const Hdf5Reader& file) {
+    const auto number = [&](const char* name) { return static_cast<int>(file.integer(name)); };
+    RunOptions options;
+    options.parts = number("parts");
+    options.seed = static_cast<std::uint64_t>(file.integer("seed"));
+    options.remesh = file.text("remesh");
+    options.patches = number("patches");
+    options.oversegmentations = number("oversegmentations");
+    options.cut_noise = file.number("cut-noise");
+    options.geodesic_samples = number("geodesic-samples");
+    options.bins = number("bins");
+    options.word_sets = number("word-sets");
+    options.histogram = file.text("histogram");
+    options.ranges = file.text("ranges");
+    options.feature_weights = file.read<double>("feature-weights");
+    options.alpha = file.number("alpha");
+    options.beta = file.number("beta");
+    options.lambda = file.number("lambda");
+    options.gap = file.number("gap");
+    options.refine = file.text("refine");
+    return options;
+}
+
+void write_bins(Hdf5Writer& file, const PatchFeatures& features) {
+    std::size_t scalar = 0;
+    for (const int h : features.feature_of) {
+        if (static_cast<Feature>(h) == Feature::shape_context) continue;
+        const FeatureRange& range = features.bins.ranges[scalar++];
+        file.write(std::string("ranges/") + feature_names[static_cast<std::size_t>(h)], range.edges);
+    }
+    for (std::size_t set = 0; set < features.bins.words.size(); ++set) {
+        const Eigen::MatrixXf& words = features.bins.words[set];
+        file.write("words/" + std::to_string(set),
+                   std::span<const float>(words.data(), static_cast<std::size_t>(words.size())),
+                   {static_cast<std::uint64_t>(words.cols()), static_cast<std::uint64_t>(words.rows())});
+    }
+}
+
+Eigen::MatrixXf read_float_matrix(const Hdf5Reader& file, const std::string& name) {
+    const Hdf5Shape extent = file.shape(name);
+    const std::vector<float> values = file.read<float>(name);
+    return Eigen::Map<const Eigen::MatrixXf>(values.data(), static_cast<Eigen::Index>(extent.at(1)),
+                                             static_cast<Eigen::Index>(extent.at(0)));
+}
+
+void read_features(const Hdf5Reader& file, RunModel& model) {
+    for (int h = 0; h < feature_total; ++h) {
+        const std::string name = feature_names[static_cast<std::size_t>(h)];
+        if (!file.has("features/" + name)) continue;
+        model.feature_of.push_back(h);
+        model.histograms.push_back(read_float_matrix(file, "features/" + name).cast<double>());
+        if (static_cast<Feature>(h) != Feature::shape_context)
+            model.bins.ranges.push_back({RangeKind::global_percentile, file.read<double>("ranges/" + name)});
+    }
+    for (int set = 0; file.has("words/" + std::to_string(set)); ++set)
+        model.bins.words.push_back(read_float_matrix(file, "words/" + std::to_string(set)));
+}
+
+bool fits_together(const RunModel& model) {
+    const std::size_t patches = model.part_of_patch.size();
+    const auto below = [](const std::vector<int>& numbers, std::size_t limit) {
+        return std::all_of(numbers.begin(), numbers.end(),
+                           [&](int n) { return n >= 0 && static_cast<std::size_t>(n) < limit; });
+    };
+    const bool columns_fit =
+        std::all_of(model.histograms.begin(), model.histograms.end(),
+                    [&](const Eigen::MatrixXd& x) { return static_cast<std::size_t>(x.cols()) == patches; });
+    return patches > 0 && !model.histograms.empty() && columns_fit && model.mesh_of.size() == patches &&
+           below(model.mesh_of, model.mesh_names.size()) && model.options.feature_weights.size() == 5 &&
+           below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.parts, 0)));
+}
+
+void write_patches(Hdf5Writer& file, const Collection& collection, const PatchFeatures& features,
+                   const ModelPatches& patches, const std::vector<int>& part_of_patch) {
+    std::vector<std::int32_t> mesh_of;
+    std::vector<std::int32_t> parts;
+    std::vector<std::string> names;
+    for (const int mesh : patches.meshes) {
+        const auto count = static_cast<std::size_t>(collection.numbering.count(mesh));
+        mesh_of.insert(mesh_of.end(), count, static_cast<std::int32_t>(names.size()));
+        names.push_back(collection.meshes[static_cast<std::size_t>(mesh)].name);
+    }
+    for (const int p : patches.columns) parts.push_back(part_of_patch[static_cast<std::size_t>(p)]);
+    for (std::size_t h = 0; h < patches.histograms.size(); ++h) {
+        const Eigen::MatrixXf& kept = patches.histograms[h];
+        file.write(std::string("features/") + feature_names[static_cast<std::size_t>(features.feature_of[h])],
+                   std::span<const float>(kept.data(), static_cast<std::size_t>(kept.size())),
+                   {static_cast<std::uint64_t>(kept.cols()), static_cast<std::uint64_t>(kept.rows())}, true);
+    }
+    file.write("mesh_of", mesh_of);
+    file.write("part_of_patch", parts);
+    file.write_texts("mesh_names", names);
+}
+
+}  // namespace
+
+ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed) {
+    ModelPatches patches;
+    patches.meshes = kept_meshes(collection.meshes, seed);
+    for (const int mesh : patches.meshes) {
+        const int first = collection.numbering.first(mesh, 0);
+        for (int p = first; p < first + collection.numbering.count(mesh); ++p) patches.columns.push_back(p);
+    }
+    for (std::size_t h = 0; h < features.histograms.size(); ++h)
+        patches.histograms.emplace_back(features.histograms[h](Eigen::all, patches.columns).cast<float>());
+    return patches;
+}
+
+void write_run_model(const Comm& comm, const std::string& path, const Collection& collection,
+                     const PatchFeatures& features, const ModelPatches& patches,
+                     const std::vector<int>& part_of_patch, const RunOptions& options) {
+    agree(comm, [&] {
+        if (!comm.is_root()) return;
+        Hdf5Writer file(path, model_format, model_version);
+        file.summary("model of " + std::to_string(collection.meshes.size()) + " meshes, " +
+                     std::to_string(patches.meshes.size()) + " kept, " + std::to_string(options.parts) +
+                     " parts");
+        write_options(file, options);
+        write_bins(file, features);
+        write_patches(file, collection, features, patches, part_of_patch);
+        file.commit();
+    });
+}
+
+RunModel read_run_model(const std::string& folder) {
+    namespace fs = std::filesystem;
+    const std::string path = (fs::path(folder) / model_file).string();
+    if (!fs::exists(path)) {
+        const bool is_run = fs::exists(fs::path(folder) / "report.json");
+        throw Error(
+            ExitCode::input,
+            is_run
+                ? "'" + folder + "' holds no " + model_file + ": run coseg run again, without --no-keep-model"
+                : "'" + folder + "' is no run; name the folder that coseg run was given with --out");
+    }
+    const Hdf5Reader file(path, model_format, model_version);
+    RunModel model;
+    model.options = read_options(file);
+    model.same_build = file.text("source_fingerprint") == source_fingerprint();
+    read_features(file, model);
+    model.mesh_of = file.read<std::int32_t>("mesh_of");
+    model.part_of_patch = file.read<std::int32_t>("part_of_patch");
+    model.mesh_names = file.read_texts("mesh_names");
+    if (!fits_together(model))
+        throw Error(ExitCode::input, path + ": its parts do not fit together; run coseg run again");
+    return model;
+}
+
+}  // namespace coseg

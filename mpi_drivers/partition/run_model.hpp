@@ -1,0 +1,50 @@
+#pragma once
+// DIR/model.h5: what a run keeps of itself so that more shapes can be labelled like its own.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mpi_drivers/describe/feature_stage.hpp"
+#include "mpi_drivers/describe/mesh_stage.hpp"
+#include "mpi_drivers/options/run_options.hpp"
+#include "src/parallel/comm.hpp"
+
+namespace coseg {
+
+inline constexpr const char* model_file = "model.h5";
+inline constexpr const char* model_format = "coseg model";
+inline constexpr int model_version = 1;
+
+/// The patches of the run's meshes, or of a hashed sample of them: as many meshes as a patch of a run is linked to
+/// (solvers/subspace/mesh_links.hpp), so that the file stays small for any collection.
+struct RunModel {
+    RunOptions
+        options;  ///< those on which descriptions, features, penalties and labels depend; defaults elsewhere
+    FeatureBins bins;
+    std::vector<int> feature_of;
+    std::vector<Eigen::MatrixXd> histograms;  ///< as in PatchFeatures, rounded to single precision
+    std::vector<int> mesh_of;                 ///< of each patch, 0 .. meshes kept - 1
+    std::vector<std::string> mesh_names;      ///< of the meshes kept
+    std::vector<int> part_of_patch;
+    bool same_build = true;  ///< written by this build of coseg
+};
+
+/// The patches that a model keeps, taken while the histograms are there.
+struct ModelPatches {
+    std::vector<int> meshes;                  ///< of the collection, ascending
+    std::vector<int> columns;                 ///< their patches, ascending
+    std::vector<Eigen::MatrixXf> histograms;  ///< as in PatchFeatures, of these patches
+};
+ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed);
+
+/// Writes the model on rank 0, where alone `patches` is asked for. Collective; throws AgreedError(output).
+void write_run_model(const Comm& comm, const std::string& path, const Collection& collection,
+                     const PatchFeatures& features, const ModelPatches& patches,
+                     const std::vector<int>& part_of_patch, const RunOptions& options);
+
+/// The model of the run in `folder`. Throws Error(input) where the folder holds no run, the run kept no model, or the
+/// model is damaged or of another version.
+RunModel read_run_model(const std::string& folder);
+
+}  // namespace coseg

@@ -1,0 +1,141 @@
+#include "mpi_drivers/partition/subset_stage.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "mpi_drivers/partition/part_collection.hpp"
+#include "src/base/error.hpp"
+#include "src/metrics/assignment.hpp"
+#include "src/patches/overlapping_subsets.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// W with the columns of all patches, on every rank, as the subsets fill it.
+struct GlobalColumns {
+    int features = 0;
+    std::vector<std::vector<std::pair<int, std::vector<double>>>> of_patch;
+};
+
+/// Takes over the columns of a subset whose patches have none yet. Collective.
+void take_columns(const Comm& comm, const SparseCoefficients& local, const std::vector<int>& patch_of,
+                  GlobalColumns& columns) {
+    std::vector<int> counts;
+    for (std::size_t c = 0; c + 1 < local.offsets.size(); ++c)
+        counts.push_back(static_cast<int>(local.offsets[c + 1] - local.offsets[c]));
+    counts = all_gather(comm, std::span<const int>(counts));
+    const std::vector<int> rows = all_gather(comm, std::span<const int>(local.rows));
+    const std::vector<double> values = all_gather(comm, std::span<const double>(local.values));
+    columns.features = local.features;
+    const auto width = static_cast<std::size_t>(local.features);
+    std::size_t entry = 0;
+    for (std::size_t c = 0; c < counts.size(); ++c) {
+        auto& column = columns.of_patch[static_cast<std::size_t>(patch_of[c])];
+        const bool taken = !column.empty();
+        for (int k = 0; k < counts[c]; ++k, ++entry) {
+            if (taken) continue;
+            const auto first = values.begin() + static_cast<std::ptrdiff_t>(entry * width);
+            column.emplace_back(patch_of[static_cast<std::size_t>(rows[entry])],
+                                std::vector<double>(first, first + local.features));
+        }
+    }
+}
+
+SparseCoefficients own_columns(const Comm& comm, const GlobalColumns& columns) {
+    SparseCoefficients own;
+    own.size = static_cast<std::int64_t>(columns.of_patch.size());
+    own.columns = block_range(own.size, comm.size(), comm.rank(), coefficient_tile);
+    own.features = columns.features;
+    own.offsets.assign(1, 0);
+    for (std::int64_t j = own.columns.begin; j < own.columns.end; ++j) {
+        for (const auto& [row, values] : columns.of_patch[static_cast<std::size_t>(j)]) {
+            own.rows.push_back(row);
+            own.values.insert(own.values.end(), values.begin(), values.end());
+        }
+        own.offsets.push_back(static_cast<std::int64_t>(own.rows.size()));
+    }
+    return own;
+}
+
+void add(Optimisation& sum, Optimisation&& one, bool first) {
+    if (first) {
+        sum = std::move(one);
+        return;
+    }
+    SolveResult& s = sum.result;
+    const SolveResult& o = one.result;
+    s.objective += o.objective;
+    s.objective_at_zero += o.objective_at_zero;
+    s.lower_bound += o.lower_bound;
+    s.nonzero_groups += o.nonzero_groups;
+    s.working_pairs += o.working_pairs;
+    s.passes += o.passes;
+    s.relative_gap = std::max(s.relative_gap, o.relative_gap);
+    s.kkt_residual = std::max(s.kkt_residual, o.kkt_residual);
+    s.history = joined({s.history, o.history});
+    s.iterations = std::max(s.iterations, o.iterations);
+    s.reason = std::max(s.reason, o.reason);
+    sum.links = std::max(sum.links, one.links);
+    sum.allowed_pairs += one.allowed_pairs;
+}
+
+struct Matching {
+    std::vector<int> part_of;  ///< per part of the subset
+    double agreement = 1.0;
+};
+
+/// Patches that have a part already are those of the common meshes.
+Matching match_parts(const std::vector<int>& part_of_patch, const std::vector<int>& patch_of,
+                     const std::vector<int>& known, const std::vector<double>& patch_area, int parts) {
+    Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(parts, parts);
+    for (std::size_t i = 0; i < patch_of.size(); ++i) {
+        const auto patch = static_cast<std::size_t>(patch_of[i]);
+        if (known[patch] >= 0) shared(part_of_patch[i], known[patch]) += patch_area[patch];
+    }
+    Matching matching{.part_of = best_assignment(shared)};
+    double agreed = 0.0;
+    for (int p = 0; p < parts; ++p) agreed += shared(p, matching.part_of[static_cast<std::size_t>(p)]);
+    if (shared.sum() > 0.0) matching.agreement = agreed / shared.sum();
+    return matching;
+}
+
+}  // namespace
+
+SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                                const RunOptions& options, SolveJournal* journal, CutJournal* cuts) {
+    std::vector<std::string> names;
+    for (const MeshFacts& mesh : collection.meshes) names.push_back(mesh.name);
+    const OverlappingSubsets plan = overlapping_subsets(names, options.subsets, options.seed);
+    const auto patches = static_cast<std::size_t>(collection.numbering.patch_count());
+    std::vector<int> known(patches, -1);
+    GlobalColumns columns;
+    columns.of_patch.resize(patches);
+    SubsetOutcome outcome;
+    double agreement = 0.0;
+    for (std::size_t s = 0; s < plan.subsets.size(); ++s) {
+        PartCollection part = part_of_collection(comm, collection, features, plan.subsets[s]);
+        Optimisation optimised = optimise(comm, part.collection, part.features, options, journal);
+        const CutResult cut =
+            cut_or_found(comm, part.collection, part.features, optimised.result.coefficients, options, cuts);
+        take_columns(comm, optimised.result.coefficients, part.patch_of, columns);
+        add(outcome.optimisation, std::move(optimised), s == 0);
+        const Matching matching =
+            match_parts(cut.part_of_patch, part.patch_of, known, features.patch_area, options.parts);
+        if (s > 0) agreement += matching.agreement;
+        for (std::size_t i = 0; i < part.patch_of.size(); ++i) {
+            int& label = known[static_cast<std::size_t>(part.patch_of[i])];
+            if (label < 0) label = matching.part_of[static_cast<std::size_t>(cut.part_of_patch[i])];
+        }
+    }
+    outcome.optimisation.subsets = static_cast<int>(plan.subsets.size());
+    outcome.optimisation.common_meshes = static_cast<int>(plan.common.size());
+    if (plan.subsets.size() > 1)
+        outcome.optimisation.subset_agreement = agreement / static_cast<double>(plan.subsets.size() - 1);
+    outcome.optimisation.result.coefficients = own_columns(comm, columns);
+    outcome.cut =
+        described_partition(known, options.parts, collection.numbering.mesh_of(), features.patch_area);
+    return outcome;
+}
+
+}  // namespace coseg

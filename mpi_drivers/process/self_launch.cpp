@@ -1,0 +1,92 @@
+#include "mpi_drivers/process/self_launch.hpp"
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace coseg {
+
+namespace {
+
+constexpr std::array<const char*, 6> marks_of_launchers{
+    "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_STEPID", "ALPS_APP_PE"};
+constexpr std::array<std::string_view, 2> commands_in_parallel{"run", "assign"};
+
+bool is_launched() {
+    return std::any_of(marks_of_launchers.begin(), marks_of_launchers.end(),
+                       [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+std::optional<int> number_in(std::string_view text) {
+    int number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+/// Of what stands before `--`; the last one counts, as for every option.
+std::optional<std::string_view> ranks_option(const std::vector<std::string_view>& words) {
+    constexpr std::string_view name = "--ranks";
+    std::optional<std::string_view> value;
+    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
+        if (words[i] == name && i + 1 < words.size()) value = words[i + 1];
+        if (words[i].starts_with("--ranks=")) value = words[i].substr(name.size() + 1);
+    }
+    return value;
+}
+
+int usable_cores() {
+    cpu_set_t cores;
+    CPU_ZERO(&cores);
+    return sched_getaffinity(0, sizeof cores, &cores) == 0 ? CPU_COUNT(&cores) : 1;
+}
+
+int wanted_ranks(const std::vector<std::string_view>& words) {
+    if (const auto option = ranks_option(words)) return number_in(*option).value_or(1);
+    if (const char* variable = std::getenv("COSEG_RANKS")) return number_in(variable).value_or(1);
+    return usable_cores();
+}
+
+bool asks_for_help(const std::vector<std::string_view>& words) {
+    return std::any_of(words.begin(), words.end(),
+                       [](std::string_view w) { return w == "--help" || w == "-h"; });
+}
+
+/// On one machine: more ranks than Open MPI counts cores are fine, none is tied to a core that another program uses,
+/// and who is root has decided so already.
+void prepare_environment() {
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
+}
+
+}  // namespace
+
+void launch_on_all_cores(int argc, char** argv) {
+    const std::vector<std::string_view> words(argv + std::min(argc, 1), argv + argc);
+    const bool is_parallel =
+        !words.empty() && std::find(commands_in_parallel.begin(), commands_in_parallel.end(),
+                                    words.front()) != commands_in_parallel.end();
+    if (!is_parallel || is_launched() || asks_for_help(words)) return;
+    const int ranks = wanted_ranks(words);
+    if (ranks < 2) return;
+    std::array<char, 4096> self{};
+    if (readlink("/proc/self/exe", self.data(), self.size() - 1) <= 0) return;
+    std::vector<std::string> line = {COSEG_MPIEXEC, "--quiet", "--oversubscribe",     "--bind-to",
+                                     "none",        "-n",      std::to_string(ranks), self.data()};
+    line.insert(line.end(), words.begin(), words.end());
+    std::vector<char*> pointers;
+    for (std::string& word : line) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    prepare_environment();
+    execvp(pointers.front(), pointers.data());  // returns only where there is no mpirun
+}
+
+}  // namespace coseg

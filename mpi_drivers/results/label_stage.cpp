@@ -1,0 +1,60 @@
+#include "mpi_drivers/results/label_stage.hpp"
+
+#include <string>
+
+#include "solvers/boundaries/fuzzy_cut.hpp"
+#include "src/patches/face_labels.hpp"
+
+namespace coseg {
+
+namespace {
+
+std::vector<std::vector<int>> parts_of_mesh(const PatchNumbering& numbering, int mesh,
+                                            const std::vector<int>& part_of_patch) {
+    std::vector<std::vector<int>> parts;
+    for (int s = 0; s < numbering.oversegmentations(); ++s) {
+        const auto first = part_of_patch.begin() + numbering.first(mesh, s);
+        parts.emplace_back(first, first + numbering.count(mesh, s));
+    }
+    return parts;
+}
+
+std::vector<double> area_shares(const Eigen::VectorXd& area, const std::vector<int>& part_of_face,
+                                int parts) {
+    std::vector<double> share(static_cast<std::size_t>(parts), 0.0);
+    for (std::size_t f = 0; f < part_of_face.size(); ++f) {
+        share[static_cast<std::size_t>(part_of_face[f])] += area[static_cast<Eigen::Index>(f)];
+    }
+    return share;
+}
+
+/// How far a crease may draw a boundary, in units of sqrt(area of the mesh): a sixth of the side of a patch.
+constexpr double boundary_reach = 0.025;
+
+std::vector<int> refined(const MeshDescription& mesh, const std::vector<int>& part_of_face,
+                         const std::string& refinement) {
+    if (refinement == "none") return part_of_face;
+    std::vector<double> holding;
+    if (refinement == "held")
+        holding = holding_costs(mesh.graph, mesh.geometry, part_of_face, boundary_reach);
+    return fuzzy_cut(mesh.graph, part_of_face, {}, holding);
+}
+
+}  // namespace
+
+std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
+                                    const RunOptions& options) {
+    std::vector<MeshLabels> labels;
+    for (const MeshDescription& mesh : collection.local) {
+        const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, part_of_patch);
+        const std::vector<int> part_of_face =
+            refined(mesh, vote_face_labels(mesh.patches, part_of, options.parts, mesh.graph), options.refine);
+        labels.push_back({.mesh = mesh.mesh,
+                          .part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area),
+                          .patch = carry_labels_back(mesh.map, mesh.patches.front(), mesh.geometry.area),
+                          .part_area = area_shares(mesh.geometry.area, part_of_face, options.parts)});
+    }
+    return labels;
+}
+
+}  // namespace coseg

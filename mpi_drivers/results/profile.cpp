@@ -1,0 +1,78 @@
+#include "mpi_drivers/results/profile.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <span>
+#include <vector>
+
+#include "io/files/atomic_file.hpp"
+#include "io/reports/trace_file.hpp"
+#include "solvers/petsc/petsc_log.hpp"
+
+namespace coseg {
+
+namespace {
+
+std::string table_row(const std::string& name, double least, double mean, double most,
+                      const std::string& wall) {
+    char numbers[64];
+    std::snprintf(numbers, sizeof numbers, " %10.3f %10.3f %10.3f ", least, mean, most);
+    std::string padded = name;
+    padded.resize(std::max<std::size_t>(name.size(), 24), ' ');
+    return padded + numbers + wall + "\n";
+}
+
+std::string wall_text(double seconds) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%10.3f", seconds);
+    return text;
+}
+
+std::string stage_table(const Comm& comm, const StageLog& log) {
+    std::string table = "Seconds of a rank's own work over " + std::to_string(comm.size()) +
+                        (comm.size() == 1 ? " rank" : " ranks") +
+                        "; wall: with waiting\n\nstage, step                     least       mean       most "
+                        "      wall\n";
+    for (const StageTimes& stage : log.stages()) {
+        table += table_row(stage.stage, stage.seconds_min, stage.seconds_mean, stage.seconds_max,
+                           wall_text(stage.seconds_wall));
+        for (const StepTime& step : stage.steps)
+            table += table_row("  " + step.step, step.seconds_min, step.seconds / comm.size(),
+                               step.seconds_max, "");
+    }
+    return table;
+}
+
+/// On every rank the spans of all.
+std::vector<RankTrace> gathered_traces(const Comm& comm, const RankTrace& local) {
+    std::vector<std::string> texts;
+    std::vector<double> numbers;  // rank, start, seconds
+    for (const TraceEvent& event : local) {
+        texts.insert(texts.end(), {event.name, event.category});
+        numbers.insert(numbers.end(), {static_cast<double>(comm.rank()), event.start, event.seconds});
+    }
+    texts = all_gather_texts(comm, texts);
+    numbers = all_gather(comm, std::span<const double>(numbers));
+    std::vector<RankTrace> traces(static_cast<std::size_t>(comm.size()));
+    for (std::size_t k = 0; 2 * k < texts.size(); ++k) {
+        traces[static_cast<std::size_t>(numbers[3 * k])].push_back(
+            {texts[2 * k], texts[2 * k + 1], numbers[3 * k + 1], numbers[3 * k + 2]});
+    }
+    return traces;
+}
+
+}  // namespace
+
+void write_profile(const Comm& comm, const std::string& folder, const RunOptions& options,
+                   const StageLog& log) {
+    const std::vector<RankTrace> traces = gathered_traces(comm, log.trace());
+    const std::string text = stage_table(comm, log) + "\n" + petsc_log_text(comm);
+    agree(comm, [&] {
+        if (!comm.is_root()) return;
+        write_trace(folder + "/trace.json", traces);
+        write_file(folder + "/profile.txt", text);
+    });
+    if (comm.is_root() && !options.quiet && !options.json_log) std::fputs(text.c_str(), stderr);
+}
+
+}  // namespace coseg

@@ -1,0 +1,19 @@
+#pragma once
+// What --profile adds to a run: where each rank's time went.
+
+#include <string>
+
+#include "mpi_drivers/options/run_options.hpp"
+#include "src/parallel/comm.hpp"
+#include "src/parallel/stage_log.hpp"
+
+namespace coseg {
+
+/// Writes `folder`/profile.txt (the table of stages and steps, PETSc's log) and `folder`/trace.json
+/// (io/reports/trace_file.hpp); prints the former to standard error on rank 0, unless the run is quiet or its log is JSON.
+/// begin_petsc_log and StageLog::keep_trace must stand at the run's beginning. Collective; throws AgreedError(output)
+/// if a file cannot be written.
+void write_profile(const Comm& comm, const std::string& folder, const RunOptions& options,
+                   const StageLog& log);
+
+}  // namespace coseg

@@ -1,0 +1,121 @@
+#include "mpi_drivers/results/report_stage.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "io/files/file_contents.hpp"
+#include "io/reports/report_page.hpp"
+#include "src/mesh/polygon_area.hpp"
+#include "src/mesh/vertex_clustering.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// The share of the area of faces whose part stands for their label.
+double accuracy_of(const LabelledMesh& shape, const std::vector<bool>& is_wrong) {
+    const std::vector<double> areas = polygon_areas(shape.mesh);
+    double right = 0.0;
+    for (std::size_t f = 0; f < areas.size(); ++f) right += is_wrong[f] ? 0.0 : areas[f];
+    const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+    return total > 0.0 ? right / total : 0.0;
+}
+
+std::vector<bool> wrong_faces(const LabelledMesh& shape, const std::vector<int>& label_of_part) {
+    std::vector<bool> is_wrong(shape.part.size(), false);
+    for (std::size_t f = 0; f < shape.truth.size(); ++f)
+        is_wrong[f] =
+            shape.truth[f] < 0 || label_of_part[static_cast<std::size_t>(shape.part[f])] != shape.truth[f];
+    return is_wrong;
+}
+
+std::string packed_shape(const LabelledMesh& shape, const std::vector<bool>& is_wrong, int most_faces) {
+    const PictureMesh picture = picture_mesh(shape.mesh, std::vector<Color>(shape.part.size()));
+    const ClusteredMesh coarse = clustered(picture.mesh, most_faces);
+    std::vector<int> labels;
+    std::vector<bool> wrong;
+    for (const int triangle : coarse.triangle) {
+        const auto face = static_cast<std::size_t>(picture.faces[static_cast<std::size_t>(triangle)]);
+        labels.push_back(shape.part[face]);
+        wrong.push_back(is_wrong[face]);
+    }
+    return packed_mesh(coarse.mesh, labels, wrong);
+}
+
+struct PackedShapes {
+    std::vector<int> numbers;
+    std::vector<double> accuracies;  ///< -1 without truth
+    std::vector<std::string> packed;
+};
+
+/// All ranks' shapes on every rank, in the order of the run.
+std::vector<PageShape> gathered(const Comm& comm, const PackedShapes& local) {
+    const std::vector<int> numbers = all_gather(comm, std::span<const int>(local.numbers));
+    const std::vector<double> accuracies = all_gather(comm, std::span<const double>(local.accuracies));
+    std::vector<std::string> packed = all_gather_texts(comm, local.packed);
+    std::vector<PageShape> shapes(numbers.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        PageShape& shape = shapes[static_cast<std::size_t>(numbers[k])];
+        shape.packed = std::move(packed[k]);
+        if (accuracies[k] >= 0.0) shape.accuracy = accuracies[k];
+    }
+    return shapes;
+}
+
+std::vector<DrawnShape> undrawn(const std::vector<LabelledMesh>& shapes) {
+    std::vector<DrawnShape> drawn;
+    for (const LabelledMesh& shape : shapes)
+        drawn.push_back({shape.number, "", picture_mesh(shape.mesh, std::vector<Color>(shape.part.size()))});
+    return drawn;
+}
+
+std::optional<double> mean_accuracy(const std::vector<PageShape>& shapes) {
+    double sum = 0.0;
+    int count = 0;
+    for (const PageShape& shape : shapes) {
+        if (!shape.accuracy) continue;
+        sum += *shape.accuracy;
+        ++count;
+    }
+    return count > 0 ? std::optional<double>(sum / count) : std::nullopt;
+}
+
+}  // namespace
+
+void write_html_report(const Comm& comm, const FinishedInput& input, const std::string& out,
+                       const ViewChoice& choice) {
+    const FinishedRun run = read_run(comm, input.folder);
+    const std::vector<LabelledMesh> shapes = read_shapes(comm, run, input);
+    std::vector<int> label_of_part;
+    if (!input.truth.empty()) label_of_part = agree_on_truth(comm, shapes, run.parts);
+    const int count = static_cast<int>(run.shapes.size());
+    const int step = (count + report_most_shapes - 1) / report_most_shapes;
+    const int most_faces = std::max(report_least_faces, report_face_budget / count);
+    PackedShapes local;
+    std::vector<DrawnShape> drawn;
+    agree(comm, [&] {
+        for (const LabelledMesh& shape : shapes) {
+            const std::vector<bool> is_wrong = wrong_faces(shape, label_of_part);
+            local.numbers.push_back(shape.number);
+            local.accuracies.push_back(shape.truth.empty() ? -1.0 : accuracy_of(shape, is_wrong));
+            local.packed.push_back(shape.number % step == 0 ? packed_shape(shape, is_wrong, most_faces) : "");
+        }
+        drawn = undrawn(shapes);
+    });
+    ReportPage page;
+    page.view = agree_on_view(comm, drawn, choice);
+    page.shapes = gathered(comm, local);
+    page.accuracy = mean_accuracy(page.shapes);
+    page.title =
+        "coseg: " + std::to_string(run.shapes.size()) + " shapes, " + std::to_string(run.parts) + " parts";
+    agree(comm, [&] {
+        if (!comm.is_root()) return;
+        page.report_json = read_file(input.folder + "/report.json");
+        const std::string sheet = input.folder + "/" + sheet_file("parts");
+        if (std::filesystem::exists(sheet)) page.sheet_png = read_file(sheet);
+        write_report_page(out + "/report.html", page);
+    });
+}
+
+}  // namespace coseg

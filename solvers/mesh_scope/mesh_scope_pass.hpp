@@ -1,0 +1,84 @@
+#pragma once
+// Scope mesh's look at all allowed pairs of some columns: what must enter their working sets, and how far
+// their decrease can still go.
+
+#include <Eigen/Core>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "solvers/mesh_scope/column_model.hpp"
+#include "solvers/subspace/feature_stack.hpp"
+
+namespace coseg {
+
+/// The columns sorted by mesh, so that a mesh's patches are a run: group g of rows is group_begin[g] ..
+/// group_begin[g + 1].
+struct MeshOrder {
+    std::vector<int> order;        ///< sorted place -> patch of the problem; ascending within a mesh
+    std::vector<int> place;        ///< its inverse
+    std::vector<int> group_begin;  ///< groups + 1
+    std::vector<int> group_mesh;   ///< ascending
+    std::vector<int> group_of;     ///< of each sorted place
+};
+MeshOrder sort_by_mesh(const std::vector<int>& mesh_of);
+
+/// The two best pairs of a group that are not in the column's working set, by ||(x_hi . u_hj - beta)_+||.
+struct GroupLeaders {
+    int row[2] = {-1, -1};
+    double norm[2] = {0.0, 0.0};
+};
+
+/// What a pass says of one column.
+struct ColumnVerdict {
+    std::vector<GroupLeaders> leaders;  ///< per group; without the working set's rows
+    /// No W decreases the column's objective by more; rounding is allowed for.
+    double largest_decrease = std::numeric_limits<double>::infinity();
+};
+
+/// A column as the pass needs it.
+struct PassColumn {
+    const WorkingColumn* working = nullptr;
+    const double* reconstruction = nullptr;  ///< z = X w, D values
+    std::vector<double> group_sums;          ///< per group of rows: s_g
+};
+
+/// Scores all rows of the groups `allowed` (ascending) against the columns, save a column's own group, as
+/// blocked matrix products. Single precision finds the same answers with a wider allowance for rounding.
+class MeshScopePass {
+  public:
+    /// `stack`: in the order of `meshes`. Collective; the rest is not.
+    MeshScopePass(const Comm& comm, const FeatureStack& stack, const MeshOrder& meshes,
+                  const ColumnPenalties& penalties);
+
+    std::vector<ColumnVerdict> single_precision(const std::vector<PassColumn>& columns,
+                                                const std::vector<int>& allowed);
+    std::vector<ColumnVerdict> double_precision(const std::vector<PassColumn>& columns,
+                                                const std::vector<int>& allowed);
+
+  private:
+    struct Survey;
+    template <class Real>
+    struct Scores;
+    template <class Real>
+    std::vector<ColumnVerdict> survey_all(const std::vector<PassColumn>& columns,
+                                          const std::vector<int>& allowed, const Real* stacked);
+    template <class Real>
+    void score_rows(Survey& survey, const Scores<Real>& scores);
+    template <class Real>
+    void score_group(Survey& survey, int group, int begin, int end, const Real* squares,
+                     const Scores<Real>& scores);
+    template <class Real>
+    void require_shift(Survey& survey, int row, double norm, double limit, const Scores<Real>& scores);
+    [[nodiscard]] Survey start_survey(const PassColumn& column, double rounding) const;
+    [[nodiscard]] ColumnVerdict finish_survey(Survey& survey) const;
+
+    const FeatureStack& stack_;
+    const MeshOrder& meshes_;
+    const ColumnPenalties& penalties_;
+    SingleColumns single_columns_;
+    std::vector<double> largest_norm_;  ///< per feature, over all columns
+    std::tuple<std::vector<float>, std::vector<double>> squares_;
+};
+
+}  // namespace coseg

@@ -1,0 +1,54 @@
+#pragma once
+// Sums over ranks that come out with the same bits on any number of ranks, in one reduction.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "src/parallel/comm.hpp"
+
+namespace coseg {
+
+/// A field of nonnegative sums (row sums of W) and a few signed scalars (objective, s.s, s.y), reduced
+/// together.
+///
+/// The field is kept as integers: multiples of 2^-80 times the power of two above `field_scale`. A sum above
+/// 2^12 times that power makes `overflowed()` true. The scalars are summed exactly, over the whole range of
+/// double, and rounded once, so that neither the order of addition nor the number of ranks shows.
+class ExactSum {
+  public:
+    /// `field_size` sums of order `field_scale` (> 0; the same on every rank) and `scalars` scalars.
+    ExactSum(std::size_t field_size, double field_scale, std::size_t scalars);
+
+    void clear();
+    /// value >= 0.
+    void add_field(std::size_t index, double value);
+    void add_scalar(std::size_t index, double value);
+
+    /// One MPI_Allreduce. Collective; every rank must have been given the same sizes and scale.
+    void reduce(const Comm& comm);
+
+    /// Valid after reduce(), on all ranks.
+    [[nodiscard]] const std::vector<double>& field() const noexcept { return field_; }
+    [[nodiscard]] double scalar(std::size_t index) const noexcept { return scalars_[index]; }
+    /// True if a sum left its range or an addend was not finite.
+    [[nodiscard]] bool overflowed() const noexcept { return overflowed_; }
+
+  private:
+    __extension__ typedef __int128 Ticks;  // NOLINT(modernize-use-using): an alias cannot be an extension
+    void pack();
+    void unpack();
+
+    int exponent_;
+    double ticks_per_unit_;
+    double largest_addend_;
+    bool addend_overflowed_ = false;
+    std::vector<Ticks> ticks_;
+    std::vector<std::int64_t> limbs_;    ///< per scalar `limbs_per_scalar` signed digits of 32 bits
+    std::vector<std::int64_t> message_;  ///< overflow count, then high and low words of the field, then limbs
+    std::vector<double> field_;
+    std::vector<double> scalars_;
+    bool overflowed_ = false;
+};
+
+}  // namespace coseg

@@ -1,0 +1,201 @@
+#include "solvers/oversegmentation/oversegmentation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "solvers/oversegmentation/face_agglomeration.hpp"
+#include "solvers/oversegmentation/fiedler_cut.hpp"
+#include "solvers/oversegmentation/weighted_graph.hpp"
+#include "src/base/error.hpp"
+#include "src/base/seeded_random.hpp"
+#include "src/mesh/dihedral_cost.hpp"
+
+namespace coseg {
+
+namespace {
+
+// Lengths and areas below this share of their mean count as that much: degenerate faces stay in the graph,
+// connected and with a finite cut / area.
+constexpr double smallest_share = 1e-6;
+
+double edge_noise(const DualEdge& edge, std::uint64_t seed) {
+    const auto a = static_cast<std::uint64_t>(edge.is_virtual ? edge.face_a : edge.vertex_a);
+    const auto b = static_cast<std::uint64_t>(edge.is_virtual ? edge.face_b : edge.vertex_b);
+    return normal_of(hash_words({seed, edge.is_virtual ? 1U : 0U, a, b}));
+}
+
+WeightedGraph noisy_face_graph(const FaceGeometry& geometry, const DualGraph& graph, double noise,
+                               std::uint64_t seed) {
+    double mean_length = 0.0;
+    for (const DualEdge& e : graph.edges) mean_length += e.length / static_cast<double>(graph.edges.size());
+    const double smallest_length = mean_length > 0.0 ? smallest_share * mean_length : 1.0;
+    std::vector<WeightedEdge> edges;
+    edges.reserve(graph.edges.size());
+    for (const DualEdge& e : graph.edges) {
+        const double factor = noise > 0.0 ? std::exp(noise * edge_noise(e, seed)) : 1.0;
+        edges.push_back(
+            {e.face_a, e.face_b, std::max(e.length, smallest_length) * dihedral_cost(e) * factor});
+    }
+    const double smallest_area =
+        geometry.total_area > 0.0 ? smallest_share * geometry.total_area / graph.face_count : 1.0;
+    std::vector<double> mass(static_cast<std::size_t>(graph.face_count));
+    for (int f = 0; f < graph.face_count; ++f) {
+        mass[static_cast<std::size_t>(f)] = std::max(geometry.area[f], smallest_area);
+    }
+    return weighted_graph(std::move(mass), edges);
+}
+
+/// A connected set of nodes with its best cut, found once and kept until the region is the next to be cut.
+struct Region {
+    std::vector<int> nodes;  // ascending
+    TwoWayCut cut;           // of induced_subgraph(nodes); value infinite for a single node
+};
+
+Region region_of(const WeightedGraph& graph, std::vector<int> nodes) {
+    Region region{.nodes = std::move(nodes), .cut = {}};
+    if (region.nodes.size() > 1) {
+        region.cut = fiedler_cut(induced_subgraph(graph, region.nodes));
+    } else {
+        region.cut.value = std::numeric_limits<double>::infinity();
+    }
+    return region;
+}
+
+/// The connected pieces of both sides of the region's cut, by lowest node.
+std::vector<std::vector<int>> pieces_of_cut(const WeightedGraph& graph, const Region& region) {
+    std::vector<std::vector<int>> pieces;
+    for (const int side : {0, 1}) {
+        std::vector<int> nodes;
+        for (std::size_t k = 0; k < region.nodes.size(); ++k) {
+            if (region.cut.side[k] == side) nodes.push_back(region.nodes[k]);
+        }
+        const std::vector<int> component = connected_components(induced_subgraph(graph, nodes));
+        const auto first = pieces.size();
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const auto piece = first + static_cast<std::size_t>(component[k]);
+            if (piece == pieces.size()) pieces.emplace_back();
+            pieces[piece].push_back(nodes[k]);
+        }
+    }
+    return pieces;
+}
+
+/// Region number per node: at least min(target, nodes) regions, all connected.
+std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
+    std::vector<Region> regions;
+    const auto later = [&](int a, int b) {
+        const Region& x = regions[static_cast<std::size_t>(a)];
+        const Region& y = regions[static_cast<std::size_t>(b)];
+        return std::tie(x.cut.value, x.nodes.front()) > std::tie(y.cut.value, y.nodes.front());
+    };
+    std::vector<std::vector<int>> pieces;
+    const std::vector<int> component = connected_components(graph);
+    for (int v = 0; v < graph.node_count(); ++v) {
+        const auto c = static_cast<std::size_t>(component[static_cast<std::size_t>(v)]);
+        if (c == pieces.size()) pieces.emplace_back();
+        pieces[c].push_back(v);
+    }
+    std::priority_queue<int, std::vector<int>, decltype(later)> next(later);
+    const auto add = [&](std::vector<int> nodes) {
+        regions.push_back(region_of(graph, std::move(nodes)));
+        next.push(static_cast<int>(regions.size()) - 1);
+    };
+    for (auto& nodes : pieces) add(std::move(nodes));
+    while (next.size() < static_cast<std::size_t>(std::min(target, graph.node_count()))) {
+        const auto chosen = static_cast<std::size_t>(next.top());
+        next.pop();
+        pieces = pieces_of_cut(graph, regions[chosen]);
+        for (auto& nodes : pieces) add(std::move(nodes));
+    }
+    std::vector<int> region_of_node(graph.mass.size(), -1);
+    for (; !next.empty(); next.pop()) {
+        for (const int v : regions[static_cast<std::size_t>(next.top())].nodes) {
+            region_of_node[static_cast<std::size_t>(v)] = next.top();
+        }
+    }
+    return region_of_node;
+}
+
+/// Numbers 0.. by first occurrence; returns how many there are.
+int renumber(std::vector<int>& labels) {
+    std::vector<int> number;
+    int count = 0;
+    for (int& label : labels) {
+        const auto old = static_cast<std::size_t>(label);
+        if (old >= number.size()) number.resize(old + 1, -1);
+        if (number[old] < 0) number[old] = count++;
+        label = number[old];
+    }
+    return count;
+}
+
+/// Neighbour with the largest shared weight (ties: lowest number); -1 if there is none.
+int closest_neighbor(const WeightedGraph& graph, int node) {
+    int closest = -1;
+    double largest = 0.0;
+    const auto v = static_cast<std::size_t>(node);
+    for (auto k = static_cast<std::size_t>(graph.offsets[v]);
+         k < static_cast<std::size_t>(graph.offsets[v + 1]); ++k) {
+        if (graph.weights[k] <= largest) continue;
+        largest = graph.weights[k];
+        closest = graph.neighbors[k];
+    }
+    return closest;
+}
+
+/// Until `target` regions are left, the smallest that has a neighbour goes to its closest one.
+void merge_smallest(const WeightedGraph& graph, std::vector<int>& region_of_node, int target) {
+    for (int count = renumber(region_of_node); count > target; count = renumber(region_of_node)) {
+        const WeightedGraph quotient = contracted_graph(graph, region_of_node, count);
+        int smallest = -1;
+        for (int r = 0; r < count; ++r) {
+            if (closest_neighbor(quotient, r) < 0) continue;
+            if (smallest < 0 || quotient.mass[static_cast<std::size_t>(r)] <
+                                    quotient.mass[static_cast<std::size_t>(smallest)]) {
+                smallest = r;
+            }
+        }
+        if (smallest < 0) return;
+        std::replace(region_of_node.begin(), region_of_node.end(), smallest,
+                     closest_neighbor(quotient, smallest));
+    }
+}
+
+}  // namespace
+
+std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& graph,
+                             const OversegmentationOptions& options, std::uint64_t seed) {
+    if (options.patches < 1 || !(options.noise >= 0.0)) {
+        throw Error(ExitCode::usage, "an over-segmentation needs at least 1 patch and a noise of at least 0");
+    }
+    std::vector<int> patch(static_cast<std::size_t>(graph.face_count));
+    std::iota(patch.begin(), patch.end(), 0);
+    if (graph.face_count <= options.patches) return patch;
+    const WeightedGraph faces = noisy_face_graph(geometry, graph, options.noise, seed);
+    const std::vector<int> super_face = agglomerate(faces, std::max(options.super_faces, options.patches));
+    const int super_faces = *std::max_element(super_face.begin(), super_face.end()) + 1;
+    const WeightedGraph super_graph = contracted_graph(faces, super_face, super_faces);
+    std::vector<int> region = recursive_cuts(super_graph, options.patches);
+    merge_smallest(super_graph, region, options.patches);
+    for (std::size_t f = 0; f < patch.size(); ++f) patch[f] = region[static_cast<std::size_t>(super_face[f])];
+    renumber(patch);
+    return patch;
+}
+
+std::vector<std::vector<int>> oversegment_all(const FaceGeometry& geometry, const DualGraph& graph,
+                                              const OversegmentationOptions& options, int count,
+                                              std::uint64_t seed) {
+    std::vector<std::vector<int>> all;
+    for (int k = 0; k < count; ++k) {
+        all.push_back(
+            oversegment(geometry, graph, options, hash_words({seed, static_cast<std::uint64_t>(k)})));
+    }
+    return all;
+}
+
+}  // namespace coseg

@@ -1,0 +1,46 @@
+#pragma once
+// A mesh cut into many small patches, the units that are later clustered into parts.
+
+#include <cstdint>
+#include <vector>
+
+#include "src/mesh/dual_graph.hpp"
+#include "src/mesh/face_geometry.hpp"
+
+namespace coseg {
+
+struct OversegmentationOptions {
+    int patches = 50;  ///< p, >= 1
+    double noise =
+        0.3;  ///< standard deviation of the logarithm of the edge weights' noise, >= 0; 0: no randomness
+    int super_faces =
+        1500;  ///< faces are agglomerated to this many before the cuts (never fewer than `patches`)
+};
+
+/// Patch 0..count-1 per face. Every patch is non-empty and connected in the dual graph (virtual edges count);
+/// count = min(patches, faces), patches numbered by their lowest face. With no more faces than patches each
+/// face is a patch. A dual graph in several components (none that src/mesh/dual_graph.hpp makes) gives at least
+/// one patch each.
+///
+/// Edge weight = length * dihedral_cost * exp(noise * n), n standard normal, a function of `seed` and of the
+/// edge's two vertices (faces for a virtual edge) only. Faces are agglomerated to super-faces; then always
+/// the region whose best cut has the smallest cut / A_1 + cut / A_2 is cut in two (solvers/oversegmentation/fiedler_cut.hpp,
+/// masses = areas), each side falling apart into its connected pieces, until there are p regions; of surplus
+/// ones the smallest in area goes to the neighbour it shares the most edge weight with. Free of scale; the
+/// order of faces matters only where values tie. `geometry` and `graph` are of the same mesh. Throws
+/// Error(usage) for options out of range.
+///
+/// Source: Hu, Fan, Liu 2012 (p = 50 patches a mesh by normalised cuts on the graph of faces).
+///
+/// Deviates: weights are boundary lengths times a dihedral cost instead of exp(-d / mean d), and the cut is
+/// recursive and two-way; one K-way spectral clustering gives disconnected and empty patches. The noise makes
+/// several over-segmentations of one mesh differ where the cut is arbitrary; they are pooled.
+std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& graph,
+                             const OversegmentationOptions& options, std::uint64_t seed);
+
+/// `count` over-segmentations, number k with the seed hash_words({seed, k}).
+std::vector<std::vector<int>> oversegment_all(const FaceGeometry& geometry, const DualGraph& graph,
+                                              const OversegmentationOptions& options, int count,
+                                              std::uint64_t seed);
+
+}  // namespace coseg

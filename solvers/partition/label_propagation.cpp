@@ -1,0 +1,53 @@
+#include "solvers/partition/label_propagation.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "solvers/affinity/affinity.hpp"
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// Keeps the system regular where patches are tied to nothing known; far below any tie that matters.
+constexpr double regularisation = 1e-9;
+
+Eigen::MatrixXd dense(const SparseRows& matrix) {
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(matrix.size, matrix.size);
+    for (Eigen::Index r = 0; r < whole.rows(); ++r) {
+        const auto row = static_cast<std::size_t>(r);
+        for (auto k = static_cast<std::size_t>(matrix.offsets[row]);
+             k < static_cast<std::size_t>(matrix.offsets[row + 1]); ++k) {
+            whole(r, matrix.columns[k]) = matrix.values[k];
+        }
+    }
+    const double total = whole.sum();
+    if (total > 0.0) whole /= total;
+    return whole;
+}
+
+}  // namespace
+
+std::vector<int> propagate_labels(const PropagationInput& input, double bonds) {
+    const Eigen::Index patches = input.evidence.cols();
+    if (patches == 0 || input.evidence.rows() == 0 || !input.evidence.allFinite())
+        throw Error(ExitCode::internal, "labels cannot be propagated: the links are empty or not finite");
+    const BlockRange all{0, patches};
+    const std::vector<int> one_mesh(static_cast<std::size_t>(patches), 0);
+    const double scale = bonds * input.evidence.sum();
+    const Eigen::MatrixXd ties = scale * (dense(adjacency_affinity(all, input.neighbors, one_mesh)) +
+                                          dense(overlap_affinity(all, input.overlaps, patches)));
+    Eigen::MatrixXd laplacian = -ties;
+    laplacian.diagonal() += ties.rowwise().sum() + input.evidence.colwise().sum().transpose() +
+                            Eigen::VectorXd::Constant(patches, regularisation);
+    const Eigen::MatrixXd values = laplacian.llt().solve(input.evidence.transpose());  // n x K
+    std::vector<int> parts;
+    for (Eigen::Index j = 0; j < patches; ++j) {
+        Eigen::Index part = 0;
+        const double largest = values.row(j).maxCoeff(&part);
+        parts.push_back(largest > regularisation ? static_cast<int>(part) : -1);
+    }
+    return parts;
+}
+
+}  // namespace coseg

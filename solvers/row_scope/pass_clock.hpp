@@ -1,0 +1,55 @@
+#pragma once
+// Times the looks at all pairs.
+
+#include <mpi.h>
+
+#include <ctime>
+
+#include "solvers/subspace/solve_result.hpp"
+#include "src/parallel/comm.hpp"
+
+namespace coseg {
+
+/// Adds the time of its life to a cost.
+class PassClock {
+  public:
+    explicit PassClock(PassCost& cost) : cost_(cost), wall_(MPI_Wtime()), cpu_(cpu_seconds()) {}
+    ~PassClock() {
+        cost_.wall_seconds += MPI_Wtime() - wall_;
+        cost_.cpu_seconds += cpu_seconds() - cpu_;
+    }
+    PassClock(const PassClock&) = delete;
+    PassClock& operator=(const PassClock&) = delete;
+
+    /// Of this process, all threads.
+    static double cpu_seconds() {
+        std::timespec time{};
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+
+  private:
+    PassCost& cost_;
+    double wall_;
+    double cpu_;
+};
+
+/// Adds the time of its life, of collective calls, to a cost.
+class CommunicationClock {
+  public:
+    explicit CommunicationClock(PassCost& cost)
+        : cost_(cost), wall_(MPI_Wtime()), cpu_(PassClock::cpu_seconds()) {}
+    ~CommunicationClock() {
+        cost_.communication_seconds += MPI_Wtime() - wall_;
+        cost_.waiting_cpu_seconds += PassClock::cpu_seconds() - cpu_;
+    }
+    CommunicationClock(const CommunicationClock&) = delete;
+    CommunicationClock& operator=(const CommunicationClock&) = delete;
+
+  private:
+    PassCost& cost_;
+    double wall_;
+    double cpu_;
+};
+
+}  // namespace coseg

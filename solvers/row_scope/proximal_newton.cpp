@@ -1,0 +1,161 @@
+#include "solvers/row_scope/proximal_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "solvers/subspace/tile_sums.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr int newton_limit = 20;
+constexpr int halving_limit = 12;
+constexpr double sufficient_increase = 1e-4;
+/// ||X W - X V|| <= this * ||W - centre|| / sqrt(reach) is near enough to the proximal point.
+constexpr double sufficient_gradient = 0.3;
+constexpr double smallest_gradient = 1e-14;  ///< relative to ||X||
+enum Scalar : std::size_t { value, gradient2, distance2, scalar_count };
+
+}  // namespace
+
+ProximalNewton::ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
+                               const std::vector<ColumnFit>& fits, const std::vector<std::size_t>& offset,
+                               const std::vector<double>& linear, RowExchange& exchange)
+    : comm_(comm),
+      stack_(stack),
+      fits_(fits),
+      offset_(offset),
+      linear_(linear),
+      exchange_(exchange),
+      prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
+      newton_(comm, problem, stack, fits, offset, exchange),
+      sums_(0, 1.0, scalar_count) {}
+
+void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double>& product) const {
+    product.resize(vector.size());
+    for (std::size_t c = 0; c < fits_.size(); ++c)
+        apply_gram(stack_, fits_[c], vector.data() + offset_[c], product.data() + offset_[c]);
+}
+
+/// by_row_ becomes W; the penalties are added up.
+void ProximalNewton::shrink_rows(double reach, std::vector<double>& prices) {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    std::vector<double> row_sums(features);
+    add_by_tiles<1>(exchange_.owned_rows().size(), value, sums_, [&](std::int64_t r, double* tile) {
+        const std::span<double> row = exchange_.row(by_row_, r);
+        prox_.shrink(row, reach, std::span(prices).subspan(static_cast<std::size_t>(r) * features, features));
+        tile[0] += prox_.penalty(row, row_sums);
+    });
+}
+
+/// Calls add(at, sums) for every value of every column, sums[k] being of the k-th scalar.
+template <class Add>
+void ProximalNewton::sum_values(Add&& add) {
+    add_by_tiles<scalar_count>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
+        const auto column = static_cast<std::size_t>(c);
+        for (std::size_t at = offset_[column]; at < offset_[column + 1]; ++at) add(at, tile);
+    });
+    sums_.reduce(comm_);
+}
+
+/// Fills in W, the dual's value and the distance, which follow from `dual` and its product.
+void ProximalNewton::evaluate(Point& point, const std::vector<double>& centre, double reach,
+                              std::vector<double>& prices) {
+    forward_.resize(centre.size());
+    for (std::size_t at = 0; at < centre.size(); ++at)
+        forward_[at] = centre[at] - 2.0 * reach * (point.dual_product[at] - linear_[at]);
+    exchange_.to_rows(forward_, by_row_);
+    sums_.clear();
+    shrink_rows(reach, prices);
+    exchange_.to_columns(by_row_, point.weights);
+    sum_values([&](std::size_t at, double* tile) {
+        const double weight = point.weights[at];
+        const double change = weight - centre[at];
+        tile[value] += 2.0 * (point.dual_product[at] - linear_[at]) * weight -
+                       point.dual[at] * point.dual_product[at] + change * change / (2.0 * reach);
+        tile[distance2] += change * change;
+    });
+    point.value = sums_.overflowed() ? -std::numeric_limits<double>::infinity()
+                                     : stack_.squared_norm + sums_.scalar(value);
+    point.distance2 = sums_.scalar(distance2);
+}
+
+/// Fills in G W and the dual's gradient.
+void ProximalNewton::differentiate(Point& point) {
+    apply(point.weights, point.product);
+    sums_.clear();
+    sum_values([&](std::size_t at, double* tile) {
+        tile[gradient2] +=
+            (point.product[at] - point.dual_product[at]) * (point.weights[at] - point.dual[at]);
+    });
+    point.gradient2 = std::max(sums_.scalar(gradient2), 0.0);
+}
+
+/// Newton's direction of V. Returns the dual's slope along it, which is not negative.
+double ProximalNewton::find_direction(double reach) {
+    const std::size_t count = current_.weights.size();
+    direction_.resize(count);
+    for (std::size_t at = 0; at < count; ++at)
+        direction_[at] = 2.0 * (current_.dual_product[at] - current_.product[at]);
+    const std::vector<double>& change = newton_.solve(current_.weights, direction_, 1.0 / reach);
+    for (std::size_t at = 0; at < count; ++at)
+        direction_[at] = current_.weights[at] + change[at] - current_.dual[at];
+    apply(direction_, direction_product_);
+    sums_.clear();
+    sum_values([&](std::size_t at, double* tile) {
+        tile[value] += 2.0 * (current_.product[at] - current_.dual_product[at]) * direction_[at];
+    });
+    return sums_.scalar(value);
+}
+
+/// False if no step of the direction raises the dual.
+bool ProximalNewton::step_along_direction(const std::vector<double>& centre, double reach, double slope,
+                                          std::vector<double>& prices) {
+    const std::size_t count = centre.size();
+    trial_.dual.resize(count);
+    trial_.dual_product.resize(count);
+    // Near the optimum an increase drowns in the value's last bits.
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * stack_.squared_norm;
+    double size = 1.0;
+    for (int halving = 0; halving < halving_limit; ++halving, size *= 0.5) {
+        for (std::size_t at = 0; at < count; ++at) {
+            trial_.dual[at] = current_.dual[at] + size * direction_[at];
+            trial_.dual_product[at] = current_.dual_product[at] + size * direction_product_[at];
+        }
+        evaluate(trial_, centre, reach, prices);
+        if (trial_.value < current_.value + sufficient_increase * size * slope - rounding) continue;
+        std::swap(current_, trial_);
+        differentiate(current_);
+        return true;
+    }
+    return false;
+}
+
+ProximalPoint ProximalNewton::minimise(const std::vector<double>& centre,
+                                       const std::vector<double>& centre_product, double reach,
+                                       std::vector<double>& prices) {
+    current_.dual = centre;
+    current_.dual_product = centre_product;
+    evaluate(current_, centre, reach, prices);
+    differentiate(current_);
+    // At the optimum itself nothing moves but the last bits.
+    const double rounding2 = smallest_gradient * smallest_gradient * stack_.squared_norm;
+    const auto reached = [&] {
+        return current_.gradient2 <=
+               std::max(sufficient_gradient * sufficient_gradient * current_.distance2 / reach, rounding2);
+    };
+    int steps = 0;
+    while (steps < newton_limit && !reached()) {
+        const double slope = find_direction(reach);
+        if (!step_along_direction(centre, reach, slope, prices)) break;
+        ++steps;
+    }
+    return {current_.weights, steps, reached()};
+}
+
+}  // namespace coseg

@@ -1,0 +1,217 @@
+#include "solvers/row_scope/support_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "solvers/subspace/tile_sums.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr int conjugate_limit = 40;
+constexpr double sufficient_residual = 1e-2;  ///< relative; further steps see to the rest
+/// A block of more weights than this is scaled by its diagonal alone.
+constexpr std::size_t largest_block = 400;
+/// Added to a block's diagonal, relative: columns that depend on each other have no factor otherwise.
+constexpr double regularization = 1e-11;
+
+}  // namespace
+
+SupportNewton::SupportNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
+                             const std::vector<ColumnFit>& fits, const std::vector<std::size_t>& offset,
+                             RowExchange& exchange)
+    : comm_(comm),
+      problem_(problem),
+      stack_(stack),
+      fits_(fits),
+      offset_(offset),
+      exchange_(exchange),
+      sums_(0, 1.0, 1) {
+    blocks_.resize(fits.size() * static_cast<std::size_t>(stack.features));
+    inverse_norm_.resize(offset.back() / static_cast<std::size_t>(stack.features));
+}
+
+/// row_part_: by columns, 2 lambda times the sum of the vector over each pair's row.
+void SupportNewton::sum_along_rows(const std::vector<double>& vector) {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    exchange_.to_rows(vector, by_row_);
+    std::vector<double> sums(features);
+    for (std::int64_t r = 0; r < exchange_.owned_rows().size(); ++r) {
+        const std::span<double> row = exchange_.row(by_row_, r);
+        std::fill(sums.begin(), sums.end(), 0.0);
+        for (std::size_t at = 0; at < row.size(); ++at) sums[at % features] += row[at];
+        for (std::size_t at = 0; at < row.size(); ++at) row[at] = 2.0 * problem_.lambda * sums[at % features];
+    }
+    exchange_.to_columns(by_row_, row_part_);
+}
+
+void SupportNewton::measure_groups(const std::vector<double>& weights) {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    for (std::size_t p = 0; p < inverse_norm_.size(); ++p) {
+        double squares = 0.0;
+        for (std::size_t h = 0; h < features; ++h)
+            squares += weights[p * features + h] * weights[p * features + h];
+        inverse_norm_[p] = squares > 0.0 ? 1.0 / std::sqrt(squares) : 0.0;
+    }
+}
+
+void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weights, double added) {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    for (std::size_t h = 0; h < features; ++h) {
+        Block& block = blocks_[c * features + h];
+        block.places.clear();
+        block.hessian.resize(0, 0);
+        for (std::size_t at = offset_[c] + h; at < offset_[c + 1]; at += features) {
+            if (weights[at] > 0.0) block.places.push_back(at);
+        }
+        const auto count = static_cast<Eigen::Index>(block.places.size());
+        Eigen::VectorXd curvature(count);
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const std::size_t at = block.places[static_cast<std::size_t>(k)];
+            const double along = weights[at] * inverse_norm_[at / features];
+            curvature[k] = 2.0 * problem_.lambda + added +
+                           problem_.alpha * inverse_norm_[at / features] * std::max(1.0 - along * along, 0.0);
+        }
+        Eigen::MatrixXd hessian = 2.0 * gram_of(c, h, block.places);
+        const Eigen::VectorXd diagonal = (1.0 + regularization) * hessian.diagonal() + curvature;
+        block.inverse_diagonal = diagonal.cwiseInverse();
+        if (block.places.empty() || block.places.size() > largest_block) continue;
+        Eigen::MatrixXd matrix = hessian;
+        matrix.diagonal() = diagonal;
+        block.factor.compute(matrix);
+        if (block.factor.info() == Eigen::Success) block.hessian = std::move(hessian);
+    }
+}
+
+/// x_hi . x_hk of the pairs at `places`: from the column's own, or anew where it has none.
+Eigen::MatrixXd SupportNewton::gram_of(std::size_t c, std::size_t h,
+                                       const std::vector<std::size_t>& places) const {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    const ColumnFit& fit = fits_[c];
+    const auto count = static_cast<Eigen::Index>(places.size());
+    const auto pair = [&](Eigen::Index k) {
+        return (places[static_cast<std::size_t>(k)] - offset_[c]) / features;
+    };
+    Eigen::MatrixXd gram(count, count);
+    if (!fit.gram.empty()) {
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const std::size_t row = pair(k) * (pair(k) + 1) / 2;
+            for (Eigen::Index l = 0; l <= k; ++l)
+                gram(k, l) = gram(l, k) = fit.gram[(row + pair(l)) * features + h];
+        }
+        return gram;
+    }
+    Eigen::MatrixXd columns(stack_.rows_of(static_cast<int>(h)), count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const std::int64_t row = fit.rows[pair(k)];
+        std::copy_n(stack_.feature(static_cast<int>(h)) + row * stack_.dimension, columns.rows(),
+                    columns.col(k).data());
+    }
+    gram.noalias() = columns.transpose() * columns;
+    return gram;
+}
+
+/// result = 2 X^T X vector on the support.
+void SupportNewton::apply_fit(const std::vector<double>& vector, std::vector<double>& result) const {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    for (std::size_t c = 0; c < fits_.size(); ++c) {
+        const auto* const first = blocks_.data() + c * features;
+        if (std::any_of(first, first + features, [](const Block& block) {
+                return !block.places.empty() && block.hessian.size() == 0;
+            })) {
+            apply_gram(stack_, fits_[c], vector.data() + offset_[c], result.data() + offset_[c]);
+            for (std::size_t at = offset_[c]; at < offset_[c + 1]; ++at) result[at] *= 2.0;
+            continue;
+        }
+        for (const Block* block = first; block != first + features; ++block) {
+            Eigen::VectorXd part(static_cast<Eigen::Index>(block->places.size()));
+            for (Eigen::Index k = 0; k < part.size(); ++k)
+                part[k] = vector[block->places[static_cast<std::size_t>(k)]];
+            const Eigen::VectorXd product = block->hessian * part;
+            for (Eigen::Index k = 0; k < part.size(); ++k)
+                result[block->places[static_cast<std::size_t>(k)]] = product[k];
+        }
+    }
+}
+
+/// result = (H + added) vector, 0 off the support; `vector` is 0 there.
+void SupportNewton::apply(const std::vector<double>& vector, const std::vector<double>& weights, double added,
+                          std::vector<double>& result) {
+    const auto features = static_cast<std::size_t>(stack_.features);
+    sum_along_rows(vector);
+    apply_fit(vector, result);
+    for (std::size_t p = 0; p < inverse_norm_.size(); ++p) {
+        const double inverse = inverse_norm_[p];
+        double along = 0.0;
+        for (std::size_t at = p * features; at < (p + 1) * features; ++at)
+            along += weights[at] * inverse * vector[at];
+        for (std::size_t at = p * features; at < (p + 1) * features; ++at) {
+            const double group = problem_.alpha * inverse * (vector[at] - along * weights[at] * inverse);
+            result[at] = weights[at] > 0.0 ? result[at] + row_part_[at] + group + added * vector[at] : 0.0;
+        }
+    }
+}
+
+void SupportNewton::precondition(const std::vector<double>& vector, std::vector<double>& result) const {
+    std::fill(result.begin(), result.end(), 0.0);
+    for (const Block& block : blocks_) {
+        Eigen::VectorXd part(static_cast<Eigen::Index>(block.places.size()));
+        for (Eigen::Index k = 0; k < part.size(); ++k)
+            part[k] = vector[block.places[static_cast<std::size_t>(k)]];
+        if (block.hessian.size() > 0) {
+            block.factor.solveInPlace(part);
+        } else {
+            part.array() *= block.inverse_diagonal.array();
+        }
+        for (Eigen::Index k = 0; k < part.size(); ++k)
+            result[block.places[static_cast<std::size_t>(k)]] = part[k];
+    }
+}
+
+/// Collective.
+double SupportNewton::inner(const std::vector<double>& a, const std::vector<double>& b) {
+    sums_.clear();
+    add_by_tiles<1>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
+        const auto column = static_cast<std::size_t>(c);
+        for (std::size_t at = offset_[column]; at < offset_[column + 1]; ++at) tile[0] += a[at] * b[at];
+    });
+    sums_.reduce(comm_);
+    return sums_.scalar(0);
+}
+
+const std::vector<double>& SupportNewton::solve(const std::vector<double>& weights,
+                                                const std::vector<double>& right_side, double added) {
+    measure_groups(weights);
+    for (std::size_t c = 0; c < fits_.size(); ++c) factor_column(c, weights, added);
+    residual_.resize(weights.size());
+    for (std::size_t at = 0; at < weights.size(); ++at)
+        residual_[at] = weights[at] > 0.0 ? right_side[at] : 0.0;
+    solution_.assign(weights.size(), 0.0);
+    preconditioned_.resize(weights.size());
+    image_.assign(weights.size(), 0.0);
+    precondition(residual_, preconditioned_);
+    search_ = preconditioned_;
+    double size = inner(residual_, preconditioned_);
+    const double enough = sufficient_residual * sufficient_residual * size;
+    for (int k = 0; k < conjugate_limit && size > enough; ++k) {
+        apply(search_, weights, added, image_);
+        const double curvature = inner(search_, image_);
+        if (!(curvature > 0.0)) break;
+        const double length = size / curvature;
+        for (std::size_t at = 0; at < weights.size(); ++at) {
+            solution_[at] += length * search_[at];
+            residual_[at] -= length * image_[at];
+        }
+        precondition(residual_, preconditioned_);
+        const double next = inner(residual_, preconditioned_);
+        for (std::size_t at = 0; at < weights.size(); ++at)
+            search_[at] = preconditioned_[at] + next / size * search_[at];
+        size = next;
+    }
+    return solution_;
+}
+
+}  // namespace coseg

@@ -1,0 +1,119 @@
+#include "solvers/subspace/dual_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/subspace/tile_sums.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+enum Scalar : std::size_t { reconstruction_sum, shifted_sum, scalar_count };
+
+}  // namespace
+
+PaperDualBound::PaperDualBound(const FeatureStack& stack, double alpha, double beta, double lambda,
+                               const std::vector<double>& row_sums)
+    : stack_(stack),
+      alpha_(alpha),
+      beta_(beta),
+      lambda_(lambda),
+      row_sums_(row_sums),
+      raise_(row_sums.size(), 0.0),
+      excess_(static_cast<std::size_t>(stack.features)),
+      sums_(0, 1.0, scalar_count) {}
+
+void PaperDualBound::begin_tile(int first, int width, const double* reconstruction) {
+    width_ = width;
+    reconstruction_ = reconstruction;
+    residual_norm_.clear();
+    for (int c = 0; c < width; ++c) {
+        const double* x = stack_.columns.data() + static_cast<std::int64_t>(first + c) * stack_.dimension;
+        const double* z = reconstruction + static_cast<std::int64_t>(c) * stack_.dimension;
+        for (int h = 0; h < stack_.features; ++h) {
+            const int begin = stack_.offset[static_cast<std::size_t>(h)];
+            double squares = 0.0;
+            for (int k = begin; k < begin + stack_.rows_of(h); ++k) squares += (x[k] - z[k]) * (x[k] - z[k]);
+            residual_norm_.push_back(2.0 * std::sqrt(squares) * (1.0 + stack_.inner_product_error()));
+        }
+    }
+    shift_.assign(residual_norm_.size(), 0.0);
+}
+
+double PaperDualBound::check_pair(int c, int i, const double* scores, double rounding) {
+    const std::size_t features = excess_.size();
+    const std::size_t row = static_cast<std::size_t>(i) * features;
+    const double* residual_norm = residual_norm_.data() + static_cast<std::size_t>(c) * features;
+    double squares = 0.0;
+    double plain_squares = 0.0;
+    for (std::size_t h = 0; h < features; ++h) {
+        const double price = 2.0 * lambda_ * row_sums_[row + h];
+        const double plain = std::max(scores[h] - price - beta_, 0.0);
+        const double error = rounding * stack_.norm(static_cast<Eigen::Index>(h), i) * residual_norm[h] +
+                             4.0 * epsilon * (std::abs(scores[h]) + price + beta_);
+        excess_[h] = std::max(scores[h] - price - beta_ + error, 0.0);
+        squares += excess_[h] * excess_[h];
+        plain_squares += plain * plain;
+    }
+    const double norm = std::sqrt(squares) * (1.0 + (stack_.features + 4) * epsilon);
+    if (norm > alpha_) repair(c, i, norm);
+    return std::sqrt(plain_squares);
+}
+
+/// Both repairs shorten the excess at hand, of the given norm, to alpha.
+void PaperDualBound::repair(int c, int i, double norm) {
+    const std::size_t features = excess_.size();
+    const std::size_t row = static_cast<std::size_t>(i) * features;
+    double* shift = shift_.data() + static_cast<std::size_t>(c) * features;
+    const double cut = (1.0 - alpha_ / norm) + 4.0 * epsilon;
+    for (std::size_t h = 0; h < features; ++h) {
+        const double needed = excess_[h] * cut * (1.0 + 4.0 * epsilon);
+        raise_[row + h] = std::max(raise_[row + h], needed);
+        shift[h] = std::max(shift[h], needed / stack_.entry_sum(static_cast<Eigen::Index>(h), i));
+    }
+}
+
+void PaperDualBound::end_tile() {
+    const double* z = reconstruction_;
+    add_by_tiles<2>(width_, reconstruction_sum, sums_, [&](std::int64_t c, double* tile) {
+        for (int h = 0; h < stack_.features; ++h) {
+            const double half =
+                0.5 * shift_[static_cast<std::size_t>(c * stack_.features + h)] * (1.0 + 4.0 * epsilon);
+            for (int k = 0; k < stack_.rows_of(h); ++k, ++z) {
+                tile[reconstruction_sum] += *z * *z;
+                tile[shifted_sum] += (*z + half) * (*z + half);
+            }
+        }
+    });
+}
+
+double PaperDualBound::raised_cost(const Comm& comm) {
+    MPI_Allreduce(MPI_IN_PLACE, raise_.data(), static_cast<int>(raise_.size()), MPI_DOUBLE, MPI_MAX,
+                  comm.raw());
+    double squares = 0.0;
+    for (std::size_t at = 0; at < raise_.size(); ++at) {
+        const double price = 2.0 * lambda_ * row_sums_[at] + raise_[at];
+        squares += price * price;
+    }
+    if (squares == 0.0) return 0.0;
+    return lambda_ > 0.0 ? squares / (4.0 * lambda_) : std::numeric_limits<double>::infinity();
+}
+
+double PaperDualBound::finish(const Comm& comm) {
+    sums_.reduce(comm);
+    const double raised = sums_.scalar(reconstruction_sum) + raised_cost(comm);
+    double row_squares = 0.0;
+    for (const double sum : row_sums_) row_squares += sum * sum;
+    const double shifted = sums_.scalar(shifted_sum) + lambda_ * row_squares;
+    // Each sum has fewer roundings than `terms`, and positive addends only.
+    const double terms =
+        stack_.dimension * static_cast<double>(coefficient_tile) + static_cast<double>(raise_.size()) + 64.0;
+    const double decrease = std::min(raised, shifted) * (1.0 + terms * epsilon);
+    const double at_zero = stack_.squared_norm * (1.0 - stack_.inner_product_error());
+    return std::max(at_zero - decrease, 0.0);
+}
+
+}  // namespace coseg

@@ -1,0 +1,73 @@
+#pragma once
+// The H features of every patch stacked into one column each, as the solvers read them, with their norms and sums.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solvers/subspace/subspace_problem.hpp"
+#include "src/histograms/feature_matrices.hpp"
+#include "src/parallel/comm.hpp"
+#include "src/parallel/node_shared_array.hpp"
+
+namespace coseg {
+
+struct FeatureStack {
+    /// Throws Error(input) where there are more than 2^31 columns.
+    explicit FeatureStack(FeatureMatrices given);
+
+    FeatureMatrices matrices;                   ///< what `columns` looks at
+    int features = 0;                           ///< H
+    int size = 0;                               ///< N
+    int dimension = 0;                          ///< D = sum of d_h
+    std::vector<int> offset;                    ///< H + 1: feature h is the rows offset[h] .. offset[h + 1]
+    Eigen::Map<const Eigen::MatrixXd> columns;  ///< D x N, column major
+    Eigen::MatrixXd norm;                       ///< H x N: 2-norms, rounded up
+    Eigen::MatrixXd entry_sum;                  ///< H x N: sums of entries, rounded down; > 0
+    double squared_norm = 0.0;                  ///< sum_h ||X_h||_F^2, the objective at W = 0
+    double largest_inner = 0.0;                 ///< largest squared norm of a column of a feature
+
+    [[nodiscard]] int rows_of(int h) const noexcept {
+        return offset[static_cast<std::size_t>(h) + 1] - offset[static_cast<std::size_t>(h)];
+    }
+    [[nodiscard]] const double* feature(int h) const noexcept {
+        return columns.data() + offset[static_cast<std::size_t>(h)];
+    }
+    /// An upper bound of |computed - exact| / (||x|| ||y||) for an inner product of dimension D in double.
+    [[nodiscard]] double inner_product_error() const noexcept;
+};
+
+/// The problem's features as they lie in memory.
+FeatureStack stack_features(const SubspaceProblem& problem);
+
+/// Column `order[i]` of the problem becomes column i; a copy of the features unless that changes nothing. Collective.
+FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order);
+
+/// The columns in single precision, in the panels of score_panel.hpp, the last filled up with zeros; once a node.
+class PanelColumns {
+  public:
+    /// Collective over `comm`, whose ranks all have this stack.
+    PanelColumns(const Comm& comm, const FeatureStack& stack);
+    [[nodiscard]] int count() const noexcept { return count_; }
+    /// The rows of a panel - columns of the stack - from the feature's value `offset` on.
+    [[nodiscard]] const float* rows(int panel, int offset) const noexcept;
+
+  private:
+    int count_;
+    int dimension_;
+    NodeSharedArray<float> values_;
+};
+
+/// D x N values in single precision, once a node.
+class SingleColumns {
+  public:
+    /// Collective over `comm`, whose ranks all have this stack.
+    SingleColumns(const Comm& comm, const FeatureStack& stack);
+    [[nodiscard]] const float* data() const noexcept { return values_.data(); }
+
+  private:
+    NodeSharedArray<float> values_;
+};
+
+}  // namespace coseg

@@ -1,0 +1,58 @@
+#pragma once
+// When to stop, decided alike on all ranks: a duality gap, the prox-gradient residual, or a limit.
+
+#include "solvers/subspace/feature_stack.hpp"
+#include "solvers/subspace/solve_result.hpp"
+#include "solvers/subspace/subspace_problem.hpp"
+#include "src/parallel/comm.hpp"
+
+namespace coseg {
+
+/// Scope paper. Remembers the best lower bound; the objective is that of the last point certified.
+class StoppingRule {
+  public:
+    /// Starts the clock.
+    StoppingRule(const Comm& comm, const SolveOptions& options, double objective_at_zero);
+
+    /// True once the gap is small enough.
+    bool certify(double objective, double lower_bound);
+
+    /// True once the residual is down to rounding, or iterations or time have run out. Collective.
+    bool limit_reached(int iterations, double kkt_residual);
+
+    /// Records why there will be no smaller gap.
+    void give_up(StopReason reason) { limit_ = reason; }
+
+    [[nodiscard]] double relative_gap() const;
+    [[nodiscard]] double lower_bound() const noexcept { return lower_bound_; }
+    [[nodiscard]] StopReason limit() const noexcept { return limit_; }
+
+    /// What gaps are relative to. An objective that vanishes, as where duplicates explain each other, has no
+    /// relative gap of its own: a millionth of the objective at W = 0 is the least.
+    [[nodiscard]] double scale(double objective) const;
+
+    /// Fills in bounds, gap and reason.
+    void report(SolveResult& result) const;
+
+  private:
+    const Comm& comm_;
+    SolveOptions options_;
+    double objective_at_zero_;
+    double start_;
+    double objective_;
+    double lower_bound_ = 0.0;
+    StopReason limit_ = StopReason::iteration_limit;
+};
+
+/// Residuals below this are rounding: the gap cannot be closed any further in double precision.
+inline constexpr double smallest_residual = 1e-14;
+
+/// What residuals are relative to: an upper bound of the norm of the gradient at W = 0 along its largest
+/// entries, one a column and feature.
+double gradient_scale(const FeatureStack& stack);
+
+/// An upper bound of the row sums of any W worth looking at: lambda ||r||^2 is at most the objective at W =
+/// 0.
+double row_sum_scale(const FeatureStack& stack, double lambda);
+
+}  // namespace coseg

@@ -1,0 +1,42 @@
+#pragma once
+// The forms of subspace clustering that the paper names beside its own, on the same features and in the same
+// result.
+
+#include <string>
+#include <vector>
+
+#include "solvers/variants/subspace_solver.hpp"
+
+namespace coseg {
+
+enum class SubspaceVariant {
+    multi_feature,   ///< equations (6)-(7): the problem as it stands
+    single_feature,  ///< equation (5): one of its features alone
+    independent,     ///< no consistency penalty: every feature alone, their coefficients side by side
+    concatenated,    ///< CFV: the features stacked into one
+    ssc,             ///< equation (2) with W >= 0, on the stacked features: beta ||W||_{1,1} alone
+    ssc_signed,      ///< the same with W of any sign
+    ssqp,            ///< equation (4) on the stacked features: lambda ||W^T W||_{1,1} alone
+};
+
+/// "multi-feature", "single-feature", "independent", "concatenated", "ssc", "ssc-signed", "ssqp", in the order
+/// of the enumeration.
+const std::vector<std::string>& variant_names();
+std::string to_string(SubspaceVariant variant);
+
+/// Throws Error(usage) where there is no such variant.
+SubspaceVariant variant_of(const std::string& name);
+
+/// Whether the variant keeps the problem's scope and allowed meshes; ssc and ssqp are those of the literature,
+/// over all pairs.
+bool keeps_scope(SubspaceVariant variant);
+
+/// Solves the variant of `problem`; `feature`, counted from 0, is that of single_feature. With one feature
+/// the group norm ||W||_{2,1} is ||W||_{1,1}, so alpha and beta add up. `coefficients` has H values a pair for
+/// multi_feature and independent, else one, which is negative at times for ssc_signed. The certificate of
+/// `independent` is the sum of those of its features. Throws as solve_subspace does, and AgreedError(usage)
+/// where there is no such feature. Collective.
+SolveResult solve_variant(const Comm& comm, const SubspaceProblem& problem, SubspaceVariant variant,
+                          int feature, const SolveOptions& options);
+
+}  // namespace coseg

@@ -1,0 +1,168 @@
+#include "src/descriptors/conformal_factor.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/base/error.hpp"
+#include "src/descriptors/gaussian_curvature.hpp"
+
+namespace coseg {
+
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// The vertices of each component (joined by faces), numbered by lowest vertex.
+struct VertexComponents {
+    std::vector<int> of_vertex;
+    std::vector<int> first_vertex;  // per component
+    [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(first_vertex.size()); }
+};
+
+VertexComponents vertex_components(const TriMesh& mesh) {
+    std::vector<int> parent(static_cast<std::size_t>(mesh.vertex_count()));
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int v) {
+        while (parent[static_cast<std::size_t>(v)] != v) {
+            int& up = parent[static_cast<std::size_t>(v)];
+            v = up = parent[static_cast<std::size_t>(up)];
+        }
+        return v;
+    };
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        for (int k = 1; k < 3; ++k) {
+            const int a = root(mesh.faces(0, f));
+            const int b = root(mesh.faces(k, f));
+            parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        }
+    }
+    VertexComponents components;
+    components.of_vertex.resize(parent.size());
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const int r = root(v);
+        if (r == v) components.first_vertex.push_back(v);
+        components.of_vertex[static_cast<std::size_t>(v)] =
+            r == v ? static_cast<int>(components.count()) - 1
+                   : components.of_vertex[static_cast<std::size_t>(r)];
+    }
+    return components;
+}
+
+/// Half the cotangent at every corner of a face; those of an equilateral face if it is too thin, or if asked
+/// for.
+Eigen::Vector3d half_cotangents(const TriMesh& mesh, int f, bool uniform) {
+    constexpr double thinnest = 1e-6;  // height over longest edge
+    constexpr double equilateral = 0.5 * std::numbers::inv_sqrt3;
+    Eigen::Matrix3d edge;  // opposite the corner
+    for (int k = 0; k < 3; ++k) {
+        edge.col(k) =
+            mesh.vertices.col(mesh.faces((k + 2) % 3, f)) - mesh.vertices.col(mesh.faces((k + 1) % 3, f));
+    }
+    const double double_area = edge.col(0).cross(edge.col(1)).norm();
+    const double longest = edge.colwise().squaredNorm().maxCoeff();
+    if (uniform || !(double_area > thinnest * longest)) return Eigen::Vector3d::Constant(equilateral);
+    Eigen::Vector3d cotangent;
+    for (int k = 0; k < 3; ++k)
+        cotangent[k] = -edge.col((k + 1) % 3).dot(edge.col((k + 2) % 3)) / double_area;
+    return 0.5 * cotangent;
+}
+
+/// L, with the first vertex of every component pinned: its diagonal entry is doubled (or 1), which removes
+/// the constant mode and changes nothing else, because right-hand sides that sum to zero give that vertex the
+/// value 0.
+SparseMatrix pinned_laplacian(const TriMesh& mesh, const VertexComponents& components, bool uniform) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(mesh.face_count()) * 12 + components.first_vertex.size());
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const Eigen::Vector3d weight = half_cotangents(mesh, f, uniform);
+        for (int k = 0; k < 3; ++k) {
+            const int a = mesh.faces((k + 1) % 3, f);
+            const int b = mesh.faces((k + 2) % 3, f);
+            entries.emplace_back(a, b, -weight[k]);
+            entries.emplace_back(b, a, -weight[k]);
+            entries.emplace_back(a, a, weight[k]);
+            entries.emplace_back(b, b, weight[k]);
+        }
+    }
+    SparseMatrix laplacian(mesh.vertex_count(), mesh.vertex_count());
+    laplacian.setFromTriplets(entries.begin(), entries.end());
+    for (const int v : components.first_vertex) {
+        const double diagonal = laplacian.coeff(v, v);
+        laplacian.coeffRef(v, v) += diagonal > 0.0 ? diagonal : 1.0;
+    }
+    return laplacian;
+}
+
+/// Sums of vertex values over each component.
+Eigen::VectorXd component_sums(const VertexComponents& components, const Eigen::VectorXd& values) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(components.count());
+    for (Eigen::Index v = 0; v < values.size(); ++v)
+        sum[components.of_vertex[static_cast<std::size_t>(v)]] += values[v];
+    return sum;
+}
+
+/// K_target - K; sums to zero over each component, to rounding.
+Eigen::VectorXd curvature_to_spread(const TriMesh& mesh, const VertexComponents& components,
+                                    const Eigen::VectorXd& area) {
+    const Eigen::VectorXd curvature = angle_defects(mesh);
+    const Eigen::VectorXd curvature_sum = component_sums(components, curvature);
+    const Eigen::VectorXd area_sum = component_sums(components, area);
+    Eigen::VectorXd difference(mesh.vertex_count());
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+        const int c = components.of_vertex[static_cast<std::size_t>(v)];
+        difference[v] = curvature_sum[c] * area[v] / area_sum[c] - curvature[v];
+    }
+    return difference;
+}
+
+std::optional<Eigen::VectorXd> solve(const SparseMatrix& laplacian, const Eigen::VectorXd& right_side) {
+    constexpr double largest_residual = 1e-6;
+    const Eigen::SimplicialLDLT<SparseMatrix> factors(laplacian);
+    if (factors.info() != Eigen::Success) return std::nullopt;
+    const Eigen::VectorXd solution = factors.solve(right_side);
+    const double residual = (laplacian * solution - right_side).norm();
+    if (!(residual <= largest_residual * right_side.norm() + 1e-12)) return std::nullopt;
+    return solution;
+}
+
+void subtract_component_means(const VertexComponents& components, const Eigen::VectorXd& weight,
+                              Eigen::VectorXd& phi) {
+    const Eigen::VectorXd sum = component_sums(components, phi.cwiseProduct(weight));
+    const Eigen::VectorXd total = component_sums(components, weight);
+    for (Eigen::Index v = 0; v < phi.size(); ++v) {
+        const int c = components.of_vertex[static_cast<std::size_t>(v)];
+        phi[v] -= sum[c] / total[c];
+    }
+}
+
+}  // namespace
+
+Eigen::VectorXd conformal_factor(const TriMesh& mesh, const FaceGeometry& geometry) {
+    if (mesh.face_count() == 0) return {};
+    const VertexComponents components = vertex_components(mesh);
+    // A share of the mean area for every vertex keeps components without area away from 0 / 0; 1e-14 of it is
+    // rounding.
+    Eigen::VectorXd area = vertex_areas(mesh, geometry);
+    const double mean_area = geometry.total_area / mesh.vertex_count();
+    area.array() += mean_area > 0.0 ? 1e-14 * mean_area : 1.0;
+
+    const Eigen::VectorXd right_side = curvature_to_spread(mesh, components, area);
+    std::optional<Eigen::VectorXd> phi = solve(pinned_laplacian(mesh, components, false), right_side);
+    if (!phi) phi = solve(pinned_laplacian(mesh, components, true), right_side);
+    if (!phi) {
+        throw Error(ExitCode::internal,
+                    "the Laplacian of a mesh with " + std::to_string(mesh.face_count()) +
+                        " faces cannot be factorised; check that its coordinates are finite");
+    }
+    subtract_component_means(components, area, *phi);
+    return mean_of_corners(mesh, *phi);
+}
+
+}  // namespace coseg

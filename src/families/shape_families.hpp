@@ -1,0 +1,41 @@
+#pragma once
+// Families of shapes with truth labels, made in code: collections on which co-segmentation can be tried and
+// tested.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/mesh/tri_mesh.hpp"
+
+namespace coseg {
+
+/// A closed, connected manifold mesh, about one unit in size, z up; a label per face.
+struct LabeledShape {
+    TriMesh mesh;
+    std::vector<int> face_label;           ///< F, an index into label_names
+    std::vector<std::string> label_names;  ///< all labels of the family, whether this shape has them or not
+};
+
+struct ShapeFamily {
+    std::string name;
+    std::string description;
+    std::vector<std::string> labels;
+};
+
+/// All families, in the order in which they are listed to users.
+const std::vector<ShapeFamily>& shape_families();
+
+/// The family whose name differs from `name` by the fewest letters inserted, deleted or replaced.
+const ShapeFamily& nearest_family(const std::string& name);
+
+/// The family of that name. Throws Error(usage) with the list of families and the nearest name.
+const ShapeFamily& shape_family(const std::string& name);
+
+/// Shape `index` of the endless collection that `seed` gives; its faces number within 15 % of `target_faces`,
+/// even triangles all. A function of the arguments alone. Part boundaries lie in the creases between the
+/// solids that make up the shape. Throws Error(usage) for an unknown family or target_faces outside
+/// 500..200000.
+LabeledShape generate_shape(const std::string& family, std::uint64_t seed, int index, int target_faces);
+
+}  // namespace coseg

@@ -1,0 +1,133 @@
+#include "src/geodesics/shortest_paths.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "src/base/vector_clones.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+std::span<const SurfaceArc> arcs_of(const SurfaceGraph& graph, int node) {
+    const int begin = graph.offsets[static_cast<std::size_t>(node)];
+    const int end = graph.offsets[static_cast<std::size_t>(node) + 1];
+    return {graph.arcs.data() + begin, static_cast<std::size_t>(end - begin)};
+}
+
+/// A radix heap (Ahuja, Mehlhorn, Orlin, Tarjan 1990), nearest first: what is pushed is never nearer than what was popped
+/// last. The bits of nonnegative floats are ordered as the floats are; a bucket holds what differs from the last one
+/// popped first in the same bit.
+class NodeQueue {
+  public:
+    void push(float distance, int node) { put({std::bit_cast<std::uint32_t>(distance), node}); }
+    /// False if there is none left.
+    bool pop(PathSource& nearest) {
+        if (buckets_[0].empty() && !refill()) return false;
+        const Entry entry = buckets_[0].back();
+        buckets_[0].pop_back();
+        nearest = {entry.node, std::bit_cast<float>(entry.key)};
+        return true;
+    }
+
+  private:
+    struct Entry {
+        std::uint32_t key;
+        int node;
+    };
+    void put(Entry entry) {
+        buckets_[static_cast<std::size_t>(std::bit_width(entry.key ^ last_))].push_back(entry);
+    }
+    /// Spreads the first bucket that is not empty over those before it.
+    bool refill() {
+        const auto full =
+            std::find_if(buckets_.begin(), buckets_.end(), [](const auto& b) { return !b.empty(); });
+        if (full == buckets_.end()) return false;
+        last_ = std::min_element(full->begin(), full->end(), [](const Entry& x, const Entry& y) {
+                    return x.key < y.key;
+                })->key;
+        for (const Entry& entry : *full) put(entry);
+        full->clear();
+        return true;
+    }
+
+    std::array<std::vector<Entry>, 33> buckets_;
+    std::uint32_t last_ = 0;
+};
+
+/// Offers every node's distances that have come down to its neighbours, in all lanes at once. `is_pending` marks nodes
+/// whose neighbours have not been told. Returns by how many the marks became more.
+COSEG_VECTOR_CLONES int sweep(const SurfaceGraph& graph, std::span<const int> order, PathLanes* distances,
+                              unsigned char* is_pending) {
+    int more = 0;
+    for (const int node : order) {
+        if (is_pending[node] == 0) continue;
+        is_pending[node] = 0;
+        --more;
+        std::array<float, path_lanes> mine{};
+        std::copy_n(distances[node].data(), mine.size(), mine.begin());
+        for (const SurfaceArc& arc : arcs_of(graph, node)) {
+            float* known = distances[arc.node].data();
+            const float length = arc.length;
+            int nearer = 0;
+            COSEG_LANES_LOOP
+            for (std::size_t l = 0; l < mine.size(); ++l) {
+                const float offered = mine[l] + length;
+                nearer |= offered < known[l] ? 1 : 0;
+                known[l] = offered < known[l] ? offered : known[l];
+            }
+            const int before = is_pending[arc.node];
+            is_pending[arc.node] = static_cast<unsigned char>(before | nearer);
+            more += (before | nearer) - before;
+        }
+    }
+    return more;
+}
+
+}  // namespace
+
+std::vector<int> lower_distances(const SurfaceGraph& graph, std::span<const PathSource> sources,
+                                 std::vector<float>& distance) {
+    std::vector<int> settled;
+    NodeQueue queue;
+    const auto offer = [&](int node, float candidate) {
+        float& known = distance[static_cast<std::size_t>(node)];
+        if (!(candidate < known)) return;
+        known = candidate;
+        queue.push(candidate, node);
+    };
+    for (const PathSource& source : sources) offer(source.node, source.distance);
+    for (PathSource nearest; queue.pop(nearest);) {
+        if (nearest.distance > distance[static_cast<std::size_t>(nearest.node)]) continue;
+        settled.push_back(nearest.node);
+        for (const SurfaceArc& arc : arcs_of(graph, nearest.node))
+            offer(arc.node, nearest.distance + arc.length);
+    }
+    return settled;
+}
+
+void path_distances(const SurfaceGraph& graph, std::span<const std::vector<PathSource>, path_lanes> sources,
+                    std::span<const int> order, std::vector<PathLanes>& distance) {
+    distance.assign(static_cast<std::size_t>(graph.node_count()), PathLanes::Constant(infinity));
+    std::vector<unsigned char> is_pending(distance.size(), 0);
+    for (int lane = 0; lane < path_lanes; ++lane) {
+        for (const PathSource& source : sources[static_cast<std::size_t>(lane)]) {
+            float& known = distance[static_cast<std::size_t>(source.node)][lane];
+            known = std::min(known, source.distance);
+            is_pending[static_cast<std::size_t>(source.node)] = 1;
+        }
+    }
+    auto pending = static_cast<int>(std::count(is_pending.begin(), is_pending.end(), 1));
+    const std::vector<int> backwards(order.rbegin(), order.rend());
+    while (pending > 0) {
+        pending += sweep(graph, backwards, distance.data(), is_pending.data());
+        pending += sweep(graph, order, distance.data(), is_pending.data());
+    }
+}
+
+}  // namespace coseg

@@ -1,0 +1,39 @@
+#pragma once
+// Histograms of a feature over the faces of each patch: the columns of X_h.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "src/histograms/feature_range.hpp"
+
+namespace coseg {
+
+/// Bin 0 .. bins-1 of every face. Throws Error(input) naming the face if a value is not finite.
+std::vector<int> bin_of_face(const Eigen::VectorXd& values, const FeatureRange& range);
+
+enum class HistogramScaling {
+    counts,       ///< sums of weights as they are
+    unit_sum,     ///< columns sum to 1
+    square_root,  ///< square root of unit_sum: columns of 2-norm 1, x_i . x_j is the Bhattacharyya
+                  ///< coefficient
+};
+
+struct HistogramOptions {
+    HistogramScaling scaling = HistogramScaling::square_root;
+    /// Standard deviation, in bins, of a Gaussian that spreads each column before scaling (0: none; mass that
+    /// would leave at an end is reflected). For ordered bins only: neighbouring shape words have nothing in
+    /// common.
+    double smoothing_bins = 0.0;
+};
+
+/// bins x patches, column major, entries >= 0; column p is the weight of patch p's faces per bin, scaled. Every patch
+/// with a face has a nonzero column: where all its weights are 0, its faces count alike; a patch without faces has a
+/// zero column.
+/// weights: face areas make the columns independent of the triangulation; ones give the paper's counts of faces.
+/// Source: Hu, Fan, Liu 2012, which counts faces and leaves the scaling open. Deviates: areas, square root, smoothing.
+/// Throws Error(internal) if sizes differ or a bin or patch is out of range.
+Eigen::MatrixXd patch_histograms(const std::vector<int>& bin_of_face, const std::vector<int>& patch_of_face,
+                                 int patches, int bins, const Eigen::VectorXd& weights,
+                                 const HistogramOptions& options = {});
+
+}  // namespace coseg

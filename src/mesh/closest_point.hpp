@@ -1,0 +1,50 @@
+#pragma once
+// The nearest point of a triangle mesh, by a tree of boxes.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "src/mesh/tri_mesh.hpp"
+
+namespace coseg {
+
+struct ClosestPoint {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    int face = -1;
+    double distance = 0.0;
+};
+
+/// Built once, asked often. Holds a copy of the mesh; faces may be degenerate (segments, points).
+class ClosestPointTree {
+  public:
+    /// Throws Error(input) for a mesh without faces.
+    explicit ClosestPointTree(const TriMesh& mesh);
+
+    /// The nearest point over all faces; the lowest face where several hold it.
+    [[nodiscard]] ClosestPoint nearest(const Eigen::Vector3d& point) const;
+
+    /// The same over the faces whose normal n has n . normal > 0, so that a thin wall's other side is left
+    /// alone; over all faces where there is none.
+    [[nodiscard]] ClosestPoint nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+
+  private:
+    struct Node {
+        Eigen::Vector3d low, high;
+        int first = 0;  ///< of order_ for a leaf, else the left child; the right child follows it
+        int count = 0;  ///< faces of a leaf; 0 for an inner node
+    };
+    void build(int node, int begin, int end);
+    [[nodiscard]] ClosestPoint search(const Eigen::Vector3d& point, const Eigen::Vector3d* normal) const;
+
+    TriMesh mesh_;
+    Eigen::Matrix3Xd normals_;
+    Eigen::Matrix3Xd centroids_;
+    std::vector<int> order_;
+    std::vector<Node> nodes_;
+};
+
+/// For every face of `of` the face of `on` that is nearest to its centroid and faces the same way: how labels
+/// travel between two meshes of one surface.
+std::vector<int> nearest_faces(const TriMesh& of, const TriMesh& on);
+
+}  // namespace coseg

@@ -1,0 +1,26 @@
+#pragma once
+// Areas, normals and centroids of faces, and the normalisation that makes descriptors free of scale.
+
+#include <Eigen/Core>
+
+#include "src/mesh/tri_mesh.hpp"
+
+namespace coseg {
+
+struct FaceGeometry {
+    Eigen::VectorXd area;       ///< F, >= 0
+    Eigen::Matrix3Xd normal;    ///< 3 x F, unit length, outward; zero for a face without area
+    Eigen::Matrix3Xd centroid;  ///< 3 x F
+    double total_area = 0.0;
+};
+
+FaceGeometry face_geometry(const TriMesh& mesh);
+
+/// The centroid of the surface. Its total area must be positive.
+Eigen::Vector3d surface_centroid(const FaceGeometry& geometry);
+
+/// Moves the area-weighted centroid to the origin and scales to total area 1.
+/// Throws Error(input) if the mesh has no area.
+void scale_to_unit_area(TriMesh& mesh);
+
+}  // namespace coseg

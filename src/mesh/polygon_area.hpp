@@ -1,0 +1,14 @@
+#pragma once
+// Areas of the faces of a mesh as it stands in its file.
+
+#include <vector>
+
+#include "src/mesh/polygon_mesh.hpp"
+
+namespace coseg {
+
+/// The area of every face, in the square of the file's unit: the sum over the fan of triangles from the face's first
+/// corner. Exact for convex planar polygons; 0 for a face of fewer than three corners.
+std::vector<double> polygon_areas(const PolygonMesh& mesh);
+
+}  // namespace coseg

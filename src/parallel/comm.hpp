@@ -1,0 +1,78 @@
+#pragma once
+// A duplicated MPI communicator and the few collective idioms that the stages share.
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+/// Owns a duplicate of a communicator, so that our messages never mix with a caller's. Move-only.
+class Comm {
+  public:
+    /// Collective over `parent`.
+    explicit Comm(MPI_Comm parent);
+    ~Comm();
+    Comm(Comm&& other) noexcept;
+    Comm& operator=(Comm&& other) noexcept;
+    Comm(const Comm&) = delete;
+    Comm& operator=(const Comm&) = delete;
+
+    [[nodiscard]] int rank() const noexcept { return rank_; }
+    [[nodiscard]] int size() const noexcept { return size_; }
+    [[nodiscard]] bool is_root() const noexcept { return rank_ == 0; }
+    [[nodiscard]] MPI_Comm raw() const noexcept { return comm_; }
+
+    /// Ranks of equal colour, in the order of this communicator. Collective.
+    [[nodiscard]] Comm split(int colour) const;
+
+  private:
+    struct Adopt {};
+    Comm(MPI_Comm owned, Adopt);
+    MPI_Comm comm_ = MPI_COMM_NULL;
+    int rank_ = 0;
+    int size_ = 1;
+};
+
+/// Runs `step` on this rank, then agrees: if it threw on any rank, all ranks throw the same AgreedError, that of the
+/// lowest failing rank. `step` must not communicate. Collective.
+void agree(const Comm& comm, const std::function<void()>& step);
+
+/// Sums of doubles that do not depend on the number of ranks or on the order of summation: each addend is rounded
+/// to a multiple of 2^-40 times the power of two above `bound` and added as an integer.
+/// |each addend| <= bound must hold, and at most 2^20 addends may be summed in all. Collective use: see all_sum.
+class FixedPointSum {
+  public:
+    FixedPointSum(std::size_t size, double bound);
+    void add(std::size_t index, double value);
+    /// The sums over all ranks, on all ranks. Collective; every rank must have been given the same size and bound.
+    [[nodiscard]] std::vector<double> all_sum(const Comm& comm) const;
+
+  private:
+    double scale_;
+    std::vector<std::int64_t> ticks_;
+};
+
+/// Concatenation over ranks, in the order of ranks, on all ranks. Collective.
+std::vector<double> all_gather(const Comm& comm, std::span<const double> local);
+std::vector<int> all_gather(const Comm& comm, std::span<const int> local);
+std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local);
+
+/// Texts of all ranks, in the order of ranks, on all ranks. Collective.
+std::vector<std::string> all_gather_texts(const Comm& comm, const std::vector<std::string>& local);
+
+/// The root's texts on all ranks. Collective.
+void broadcast_texts(const Comm& comm, std::vector<std::string>& texts);
+
+double all_max(const Comm& comm, double local);
+double all_min(const Comm& comm, double local);
+std::int64_t all_sum(const Comm& comm, std::int64_t local);
+
+}  // namespace coseg

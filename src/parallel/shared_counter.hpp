@@ -1,0 +1,34 @@
+#pragma once
+// A counter that all ranks draw from: the dynamic schedule of work items of unequal size.
+
+#include <mpi.h>
+
+#include <cstdint>
+
+#include "src/parallel/comm.hpp"
+
+namespace coseg {
+
+/// next() gives 0, 1, 2, ... each to exactly one caller, in the order in which ranks ask. One-sided: no rank waits for
+/// another, though across nodes rank 0 may answer only while it is inside MPI. Construction and destruction are collective.
+class SharedCounter {
+  public:
+    explicit SharedCounter(const Comm& comm);
+    ~SharedCounter();
+    SharedCounter(const SharedCounter&) = delete;
+    SharedCounter& operator=(const SharedCounter&) = delete;
+
+    [[nodiscard]] std::int64_t next();
+
+    /// From now on next() gives nobody less than `exhausted`: a rank's way of telling the others to stop.
+    void exhaust();
+    [[nodiscard]] bool is_exhausted();
+    static constexpr std::int64_t exhausted = std::int64_t{1} << 48;
+
+  private:
+    std::int64_t fetch_and_add(std::int64_t addend);
+    MPI_Win window_ = MPI_WIN_NULL;
+    std::int64_t* value_ = nullptr;
+};
+
+}  // namespace coseg

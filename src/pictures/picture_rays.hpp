@@ -1,0 +1,43 @@
+#pragma once
+// Rays into a mesh as it is drawn: what the eye meets, and what stands in the way of light.
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+
+#include "src/mesh/tri_mesh.hpp"
+
+namespace coseg {
+
+/// A mesh of about unit size prepared for rays in single precision. Serial: starts no threads.
+/// Errors: Error(internal) if the ray tracer cannot be set up.
+class PictureRays {
+  public:
+    static constexpr int packet = 16;
+
+    struct Hit {
+        int triangle = -1;  ///< -1: nothing met
+        float u = 0.0F;     ///< barycentric coordinates of the second and third corner
+        float v = 0.0F;
+        float distance = 0.0F;
+    };
+
+    explicit PictureRays(const TriMesh& mesh);
+    ~PictureRays();
+    PictureRays(const PictureRays&) = delete;
+    PictureRays& operator=(const PictureRays&) = delete;
+
+    /// The nearest triangle, from either side, along each of 16 rays from one eye.
+    std::array<Hit, packet> look(const Eigen::Vector3f& eye,
+                                 const std::array<Eigen::Vector3f, packet>& directions) const;
+
+    /// How many of 16 rays from a point on the surface meet something before `reach`.
+    int blocked(const Eigen::Vector3f& from, const std::array<Eigen::Vector3f, packet>& directions,
+                float reach) const;
+
+  private:
+    struct Scene;
+    std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace coseg

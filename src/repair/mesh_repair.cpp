@@ -1,0 +1,156 @@
+#include "src/repair/mesh_repair.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "src/base/error.hpp"
+#include "src/mesh/polygon_triangulation.hpp"
+#include "src/mesh/vertex_welding.hpp"
+#include "src/repair/degenerate_faces.hpp"
+#include "src/repair/manifold_cut.hpp"
+#include "src/repair/stand_in_faces.hpp"
+
+namespace coseg {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+void check_input(const PolygonMesh& input, const std::string& name) {
+    for (int v = 0; v < input.vertex_count(); ++v) {
+        if (!input.vertices[at(v)].allFinite()) {
+            throw Error(ExitCode::input,
+                        name + ": vertex " + std::to_string(v) + " is not finite; correct its coordinates");
+        }
+    }
+    for (int f = 0; f < input.face_count(); ++f) {
+        for (int k = input.offsets[at(f)]; k < input.offsets[at(f) + 1]; ++k) {
+            const int v = input.corners[at(k)];
+            if (v >= 0 && v < input.vertex_count()) continue;
+            throw Error(ExitCode::input, name + ": face " + std::to_string(f) + " refers to vertex " +
+                                             std::to_string(v) + " of " +
+                                             std::to_string(input.vertex_count()) + "; correct the face");
+        }
+    }
+}
+
+/// The face's welded corners without repetitions next to each other.
+void distinct_corners(const PolygonMesh& input, const std::vector<int>& vertex_of, int face,
+                      std::vector<int>& corners) {
+    corners.clear();
+    for (int k = input.offsets[at(face)]; k < input.offsets[at(face) + 1]; ++k) {
+        const int v = vertex_of[at(input.corners[at(k)])];
+        if (corners.empty() || corners.back() != v) corners.push_back(v);
+    }
+    while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+}
+
+WorkingTriangles triangulate(const PolygonMesh& input, const std::vector<int>& vertex_of) {
+    WorkingTriangles working;
+    working.triangles.reserve(input.corners.size() / 3);
+    working.input_face.reserve(input.corners.size() / 3);
+    std::vector<int> corners;
+    std::vector<Vector3d> positions;
+    for (int f = 0; f < input.face_count(); ++f) {
+        distinct_corners(input, vertex_of, f, corners);
+        if (corners.size() == 3) {
+            working.triangles.emplace_back(corners[0], corners[1], corners[2]);
+            working.input_face.push_back(f);
+        } else if (corners.size() > 3) {
+            positions.clear();
+            for (const int v : corners) positions.push_back(input.vertices[at(v)]);
+            for (const Vector3i& t : triangulate_polygon(positions)) {
+                working.triangles.emplace_back(corners[at(t[0])], corners[at(t[1])], corners[at(t[2])]);
+                working.input_face.push_back(f);
+            }
+        }
+    }
+    return working;
+}
+
+TriMesh to_mesh(const PolygonMesh& input, const ManifoldCut& cut) {
+    TriMesh mesh;
+    mesh.vertices.resize(3, static_cast<Eigen::Index>(cut.source_vertex.size()));
+    for (std::size_t v = 0; v < cut.source_vertex.size(); ++v) {
+        mesh.vertices.col(static_cast<Eigen::Index>(v)) = input.vertices[at(cut.source_vertex[v])];
+    }
+    mesh.faces.resize(3, static_cast<Eigen::Index>(cut.triangles.size()));
+    for (std::size_t f = 0; f < cut.triangles.size(); ++f)
+        mesh.faces.col(static_cast<Eigen::Index>(f)) = cut.triangles[f];
+    return mesh;
+}
+
+int count_welded(const std::vector<int>& vertex_of) {
+    int welded = 0;
+    for (std::size_t v = 0; v < vertex_of.size(); ++v) welded += vertex_of[v] != static_cast<int>(v) ? 1 : 0;
+    return welded;
+}
+
+int count_unused(const PolygonMesh& input) {
+    std::vector<char> used(input.vertices.size(), 0);
+    for (const int v : input.corners) used[at(v)] = 1;
+    return static_cast<int>(std::count(used.begin(), used.end(), 0));
+}
+
+class Warnings {
+  public:
+    explicit Warnings(const std::string& name) : name_(name) {}
+    void add(int count, const std::string& one, const std::string& many) {
+        if (count > 0)
+            sentences_.push_back(name_ + ": " + std::to_string(count) + " " + (count == 1 ? one : many));
+    }
+    std::vector<std::string> take() { return std::move(sentences_); }
+
+  private:
+    const std::string& name_;
+    std::vector<std::string> sentences_;
+};
+
+std::vector<std::string> describe(const std::string& name, int unused, int welded, int faces_without_area,
+                                  const ManifoldCut& cut) {
+    Warnings warnings(name);
+    warnings.add(unused, "vertex belongs to no face and is left out",
+                 "vertices belong to no face and are left out");
+    warnings.add(welded, "repeated vertex is welded", "repeated vertices are welded");
+    warnings.add(faces_without_area, "face without area takes the part of a neighbour",
+                 "faces without area take the part of a neighbour");
+    warnings.add(cut.crowded_edges, "edge has three or more faces and is cut",
+                 "edges have three or more faces and are cut");
+    warnings.add(cut.unorientable_edges, "edge joins faces that cannot be oriented alike and is cut",
+                 "edges join faces that cannot be oriented alike and are cut");
+    warnings.add(cut.copied_vertices, "copy of a vertex separates surfaces that meet there",
+                 "copies of vertices separate surfaces that meet there");
+    warnings.add(cut.flipped_triangles, "triangle is turned to face outward",
+                 "triangles are turned to face outward");
+    return warnings.take();
+}
+
+}  // namespace
+
+RepairedMesh repair(const PolygonMesh& input, const std::string& name) {
+    check_input(input, name);
+    const std::vector<int> vertex_of = weld_vertices(input);
+    WorkingTriangles working = triangulate(input, vertex_of);
+    remove_degenerate(working, input.vertices);
+    if (working.triangles.empty()) {
+        throw Error(ExitCode::input, name + ": no face has an area; check the coordinates and the faces");
+    }
+    std::vector<char> has_working_face(at(input.face_count()), 0);
+    for (const int f : working.input_face) has_working_face[at(f)] = 1;
+
+    RepairedMesh result;
+    result.map.input_faces = input.face_count();
+    result.map.stand_in = stand_in_faces(input, vertex_of, has_working_face);
+    const ManifoldCut cut = cut_to_manifold(working.triangles, input.vertices);
+    result.mesh = to_mesh(input, cut);
+    result.map.input_face = std::move(working.input_face);
+    const auto without_area =
+        static_cast<int>(std::count(has_working_face.begin(), has_working_face.end(), 0));
+    result.warnings = describe(name, count_unused(input), count_welded(vertex_of), without_area, cut);
+    return result;
+}
+
+}  // namespace coseg

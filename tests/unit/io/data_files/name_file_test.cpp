@@ -1,0 +1,44 @@
+#include "io/data_files/name_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/errors.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace coseg {
+namespace {
+
+using test::error_of;
+using test::TemporaryFolder;
+
+TEST(NameFile, NumbersChooseTheLabel) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(read_names(folder.file("a.txt", "2 leg\r\n\r\n0  seat \n7 left arm rest")),
+              (LabelNames{{0, "seat"}, {2, "leg"}, {7, "left arm rest"}}));
+}
+
+TEST(NameFile, WithoutNumbersLinesCount) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(read_names(folder.file("a.txt", "seat\n\nback rest\n")),
+              (LabelNames{{0, "seat"}, {1, "back rest"}}));
+    // One line without a number, or a number that is all of the name: the lines are names as they stand.
+    EXPECT_EQ(read_names(folder.file("b.txt", "0 seat\nleg\n")), (LabelNames{{0, "0 seat"}, {1, "leg"}}));
+    EXPECT_EQ(read_names(folder.file("c.txt", "5\n6\n")), (LabelNames{{0, "5"}, {1, "6"}}));
+    EXPECT_EQ(read_names(folder.file("d.txt", "-1 none\n")), (LabelNames{{0, "-1 none"}}));
+}
+
+TEST(NameFile, BadFilesAreNamed) {
+    const TemporaryFolder folder;
+    const test::Caught twice = error_of([&] { read_names(folder.file("a.txt", "0 seat\n1 leg\n0 back\n")); });
+    EXPECT_EQ(twice.code, ExitCode::input);
+    EXPECT_NE(twice.sentence.find("a.txt:3: label 0 has a name already"), std::string::npos)
+        << twice.sentence;
+    for (const std::string& path : {folder.file("b.txt", "\n \n"), folder.path("gone.txt")}) {
+        const test::Caught caught = error_of([&] { read_names(path); });
+        EXPECT_EQ(caught.code, ExitCode::input) << path;
+        EXPECT_NE(caught.sentence.find(path), std::string::npos) << caught.sentence;
+    }
+}
+
+}  // namespace
+}  // namespace coseg

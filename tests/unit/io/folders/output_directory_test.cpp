@@ -1,0 +1,214 @@
+#include "io/folders/output_directory.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <set>
+
+#include "io/data_files/label_file.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace coseg {
+namespace {
+
+namespace fs = std::filesystem;
+using test::error_of;
+using test::TemporaryFolder;
+
+/// Every file and folder below, relative.
+std::set<std::string> tree(const std::string& folder) {
+    std::set<std::string> paths;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        paths.insert(fs::relative(entry.path(), folder).string());
+    return paths;
+}
+
+TEST(OutputDirectory, AppearsWholeAtCommit) {
+    const TemporaryFolder folder;
+    OutputDirectory output(folder.path("out/"), false);
+    EXPECT_EQ(output.path(), fs::canonical(folder.path()).string() + "/out");
+    write_labels(output.staging() + "/labels/a.seg", {1, 2});
+    EXPECT_FALSE(fs::exists(folder.path("out")));
+    output.commit();
+    EXPECT_EQ(tree(folder.path()),
+              (std::set<std::string>{"out", "out/labels", "out/labels/a.seg", "out/patches", "out/ply"}));
+}
+
+TEST(OutputDirectory, WithoutCommitNothingStays) {
+    const TemporaryFolder folder;
+    {
+        const OutputDirectory output(folder.path("new/parents/out"), false);
+        write_labels(output.staging() + "/labels/a.seg", {1});
+        EXPECT_TRUE(fs::exists(output.staging() + "/ply"));
+    }
+    EXPECT_TRUE(tree(folder.path()).empty());
+}
+
+TEST(OutputDirectory, AnEmptyFolderIsTaken) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path("out"));
+    OutputDirectory output(folder.path("out"), false);
+    output.commit();
+    EXPECT_EQ(tree(folder.path()), (std::set<std::string>{"out", "out/labels", "out/patches", "out/ply"}));
+}
+
+TEST(OutputDirectory, FilesAndFullFoldersAreRefused) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path("full"));
+    folder.file("full/mine.txt", "keep");
+    folder.file("file", "keep");
+    const std::set<std::string> before = tree(folder.path());
+    const test::Caught full = error_of([&] { OutputDirectory(folder.path("full"), false); });
+    EXPECT_EQ(full.code, ExitCode::output);
+    EXPECT_NE(full.sentence.find(folder.path("full")), std::string::npos);
+    EXPECT_NE(full.sentence.find("--force"), std::string::npos);
+    for (const bool force : {false, true}) {
+        EXPECT_EQ(error_of([&] { OutputDirectory(folder.path("file"), force); }).code, ExitCode::output);
+        EXPECT_EQ(error_of([&] { OutputDirectory(folder.path("file/below"), force); }).code,
+                  ExitCode::output);
+        EXPECT_EQ(error_of([&] { OutputDirectory("", force); }).code, ExitCode::output);
+        EXPECT_EQ(error_of([&] { OutputDirectory("/", force); }).code, ExitCode::output);
+    }
+    EXPECT_EQ(tree(folder.path()), before);
+}
+
+TEST(OutputDirectory, ForceReplacesResultsAndNothingElse) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder.path("out/labels"));
+    fs::create_directories(folder.path("out/mine"));
+    folder.file("out/labels/a.seg", "old");
+    folder.file("out/labels/gone.seg", "old");
+    folder.file("out/labels/notes.txt", "keep");
+    folder.file("out/mine/b.seg", "keep");
+    folder.file("out/report.json", "old");
+    folder.file("out/other.json", "keep");
+    OutputDirectory output(folder.path("out"), true);
+    write_labels(output.staging() + "/labels/a.seg", {7});
+    write_labels(output.staging() + "/report.json", {8});
+    EXPECT_EQ(test::content_of(folder.path("out/labels/a.seg")), "old");
+    output.commit();
+    EXPECT_EQ(tree(folder.path("out")),
+              (std::set<std::string>{"labels", "labels/a.seg", "labels/notes.txt", "mine", "mine/b.seg",
+                                     "other.json", "patches", "ply", "report.json"}));
+    EXPECT_EQ(test::content_of(folder.path("out/labels/a.seg")), "7\n");
+    EXPECT_EQ(test::content_of(folder.path("out/report.json")), "8\n");
+    EXPECT_EQ(tree(folder.path()).count(fs::path(output.staging()).filename().string()), 0U);
+}
+
+TEST(OutputDirectory, ForceWithoutCommitLeavesTheOldResults) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder.path("out/labels"));
+    folder.file("out/labels/a.seg", "old");
+    const std::set<std::string> before = tree(folder.path());
+    {
+        const OutputDirectory output(folder.path("out"), true);
+        write_labels(output.staging() + "/labels/a.seg", {7});
+    }
+    EXPECT_EQ(tree(folder.path()), before);
+    EXPECT_EQ(test::content_of(folder.path("out/labels/a.seg")), "old");
+}
+
+TEST(OutputDirectory, FilledMeanwhileIsNotOverwritten) {
+    const TemporaryFolder folder;
+    {
+        OutputDirectory output(folder.path("out"), false);
+        fs::create_directory(folder.path("out"));
+        folder.file("out/theirs.txt", "keep");
+        EXPECT_EQ(error_of([&] { output.commit(); }).code, ExitCode::output);
+    }
+    EXPECT_EQ(tree(folder.path()), (std::set<std::string>{"out", "out/theirs.txt"}));
+}
+
+TEST(OutputDirectory, AFolderThatExistsIsFilledFromWithin) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder.path("out/.partial-1/labels"));  // of a killed run
+    OutputDirectory output(folder.path("out"), false);
+    EXPECT_EQ(fs::path(output.staging()).parent_path(), output.path());
+    write_labels(output.staging() + "/labels/a.seg", {1});
+    output.commit();
+    EXPECT_EQ(tree(folder.path("out")), (std::set<std::string>{".partial-1", ".partial-1/labels", "labels",
+                                                               "labels/a.seg", "patches", "ply"}));
+}
+
+/// The number of a process that has ended.
+pid_t ended_process() {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    ::waitpid(child, nullptr, 0);
+    return child;
+}
+
+TEST(OutputDirectory, AProcessThatNobodyHasSeenToIsDead) {
+    const TemporaryFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    siginfo_t ended;
+    ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT);  // ended, and still there
+    std::string left;
+    {
+        const OutputDirectory output(folder.path("out"), false);
+        left = output.staging();
+        left.resize(left.size() - std::to_string(::getpid()).size());
+    }
+    left += std::to_string(child);
+    fs::create_directory(left);
+    const OutputDirectory output(folder.path("out"), false);
+    EXPECT_FALSE(fs::exists(left));
+    ::waitpid(child, nullptr, 0);
+}
+
+TEST(OutputDirectory, WhatKilledRunsLeftGoesWithTheNext) {
+    const TemporaryFolder folder;
+    for (const bool inside : {false, true}) {
+        const std::string out = folder.path(inside ? "there" : "new");
+        if (inside) fs::create_directory(out);
+        std::string mark;  // all but the process number of a partial folder's name
+        {
+            const OutputDirectory output(out, false);
+            const std::string& staging = output.staging();
+            mark = staging.substr(0, staging.size() - std::to_string(::getpid()).size());
+        }
+        const std::string dead = mark + std::to_string(ended_process());
+        const std::string alive = mark + std::to_string(::getppid());
+        const std::string other = mark + "1x";  // of a machine whose name begins like ours
+        for (const std::string& left : {dead, alive, other}) fs::create_directories(left + "/labels");
+        write_labels(dead + "/labels/a.seg", {1});
+        const OutputDirectory output(out, false);
+        EXPECT_FALSE(fs::exists(dead));
+        EXPECT_TRUE(fs::exists(alive));
+        EXPECT_TRUE(fs::exists(other));
+    }
+}
+
+TEST(OutputDirectory, AbandonRemovesWhatIsPartialOnly) {
+    const TemporaryFolder folder;
+    OutputDirectory given_up(folder.path("x/y"), false);
+    given_up.abandon();
+    EXPECT_TRUE(tree(folder.path()).empty());
+    OutputDirectory kept(folder.path("z"), false);
+    kept.commit();
+    kept.abandon();
+    EXPECT_TRUE(fs::exists(folder.path("z/ply")));
+}
+
+TEST(OutputDirectory, ALinkToNothingIsRefused) {
+    const TemporaryFolder folder;
+    fs::create_directory_symlink(folder.path("nowhere"), folder.path("link"));
+    EXPECT_EQ(error_of([&] { OutputDirectory(folder.path("link"), true); }).code, ExitCode::output);
+    EXPECT_EQ(tree(folder.path()), std::set<std::string>{"link"});
+}
+
+TEST(OutputDirectory, SymbolicLinkToAFolderIsFollowed) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path("real"));
+    fs::create_directory_symlink(folder.path("real"), folder.path("link"));
+    OutputDirectory output(folder.path("link"), false);
+    output.commit();
+    EXPECT_TRUE(fs::is_symlink(folder.path("link")));
+    EXPECT_TRUE(fs::exists(folder.path("real/labels")));
+}
+
+}  // namespace
+}  // namespace coseg

@@ -1,0 +1,204 @@
+#include "solvers/oversegmentation/oversegmentation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "src/base/error.hpp"
+#include "src/base/seeded_random.hpp"
+#include "src/mesh/connected_pieces.hpp"
+#include "src/mesh/dihedral_cost.hpp"
+#include "tests/support/read_off.hpp"
+#include "tests/support/revolution.hpp"
+#include "tests/support/shapes.hpp"
+
+namespace coseg {
+namespace {
+
+struct Prepared {
+    TriMesh mesh;
+    FaceGeometry geometry;
+    DualGraph graph;
+};
+
+Prepared prepared(TriMesh mesh) {
+    scale_to_unit_area(mesh);
+    FaceGeometry geometry = face_geometry(mesh);
+    DualGraph graph = dual_graph(mesh, geometry);
+    return {std::move(mesh), std::move(geometry), std::move(graph)};
+}
+
+int count_of(const std::vector<int>& patch) { return *std::max_element(patch.begin(), patch.end()) + 1; }
+
+void expect_valid(const std::vector<int>& patch, const DualGraph& graph, int expected_patches) {
+    ASSERT_EQ(static_cast<int>(patch.size()), graph.face_count);
+    // Pieces are numbered by lowest face, as patches are: equal numbers mean connected, non-empty and in
+    // order.
+    EXPECT_EQ(connected_pieces(graph, patch), patch);
+    EXPECT_EQ(count_of(patch), expected_patches);
+}
+
+/// Share of the area in the best overlaps: every patch of a counts with the patch of b it shares most
+/// with.
+double agreement(const FaceGeometry& geometry, const std::vector<int>& a, const std::vector<int>& b) {
+    std::map<int, std::map<int, double>> shared;
+    for (std::size_t f = 0; f < a.size(); ++f)
+        shared[a[f]][b[f]] += geometry.area[static_cast<Eigen::Index>(f)];
+    double sum = 0.0;
+    for (const auto& [patch, others] : shared) {
+        sum += std::max_element(others.begin(), others.end(), [](auto& x, auto& y) {
+                   return x.second < y.second;
+               })->second;
+    }
+    return sum / geometry.total_area;
+}
+
+TEST(Oversegmentation, FiftyConnectedPatchesOnSimpleShapes) {
+    for (const TriMesh& mesh : {test::sphere(3), test::box(1, 2, 3, 20), test::torus(1, 0.3, 48, 20),
+                                test::flat_square(30), test::dumbbell(40, 24)}) {
+        const Prepared p = prepared(mesh);
+        for (const double noise : {0.0, 0.3}) {
+            expect_valid(oversegment(p.geometry, p.graph, {.noise = noise}, 7), p.graph, 50);
+        }
+    }
+}
+
+TEST(Oversegmentation, AnyNumberOfPatchesIsMetExactly) {
+    const Prepared p = prepared(test::sphere(2));  // 320 faces
+    for (const int patches : {1, 2, 3, 49, 200, 319, 320}) {
+        expect_valid(oversegment(p.geometry, p.graph, {.patches = patches, .super_faces = 10}, 1), p.graph,
+                     patches);
+    }
+}
+
+TEST(Oversegmentation, FewerFacesThanPatchesGiveOneFaceEach) {
+    const Prepared p = prepared(test::sphere(0));
+    const std::vector<int> patch = oversegment(p.geometry, p.graph, {}, 1);
+    for (std::size_t f = 0; f < 20; ++f) EXPECT_EQ(patch[f], static_cast<int>(f));
+}
+
+TEST(Oversegmentation, TwoPatchesMeetAtTheWaist) {
+    const Prepared p = prepared(test::dumbbell(40, 24));
+    for (const int super_faces : {200, 100000}) {
+        const std::vector<int> patch =
+            oversegment(p.geometry, p.graph, {.patches = 2, .super_faces = super_faces}, 5);
+        for (std::size_t f = 0; f < patch.size(); ++f) {
+            EXPECT_EQ(patch[f], p.geometry.centroid(2, static_cast<Eigen::Index>(f)) < 0.0 ? 0 : 1) << f;
+        }
+    }
+}
+
+TEST(Oversegmentation, SeedsDifferOnlyWithNoise) {
+    const Prepared p = prepared(test::dumbbell(40, 24));
+    EXPECT_EQ(oversegment(p.geometry, p.graph, {}, 3), oversegment(p.geometry, p.graph, {}, 3));
+    EXPECT_NE(oversegment(p.geometry, p.graph, {}, 3), oversegment(p.geometry, p.graph, {}, 4));
+    EXPECT_EQ(oversegment(p.geometry, p.graph, {.noise = 0}, 3),
+              oversegment(p.geometry, p.graph, {.noise = 0}, 4));
+}
+
+TEST(Oversegmentation, AllUsesASeedForEach) {
+    const Prepared p = prepared(test::torus(1, 0.3, 30, 12));
+    const auto all = oversegment_all(p.geometry, p.graph, {}, 3, 11);
+    ASSERT_EQ(all.size(), 3U);
+    for (std::uint64_t k = 0; k < 3; ++k)
+        EXPECT_EQ(all[k], oversegment(p.geometry, p.graph, {}, hash_words({11, k})));
+    EXPECT_NE(all[0], all[1]);
+}
+
+TEST(Oversegmentation, IsFreeOfScale) {
+    TriMesh mesh = test::torus(1, 0.3, 30, 12);
+    const FaceGeometry small = face_geometry(mesh);
+    const std::vector<int> expected = oversegment(small, dual_graph(mesh, small), {}, 2);
+    for (const double scale : {0x1p-30, 0x1p+30}) {  // powers of two: the same digits
+        TriMesh scaled = mesh;
+        scaled.vertices *= scale;
+        const FaceGeometry geometry = face_geometry(scaled);
+        EXPECT_EQ(oversegment(geometry, dual_graph(scaled, geometry), {}, 2), expected);
+    }
+}
+
+TEST(Oversegmentation, FollowsTheSurfaceNotTheOrderOfFaces) {
+    const Prepared p = prepared(test::dumbbell(40, 24));
+    const std::vector<int> patch = oversegment(p.geometry, p.graph, {}, 9);
+    std::vector<int> order;
+    const Prepared q = prepared(test::shuffled_faces(p.mesh, 4, order));
+    const std::vector<int> of_shuffled = oversegment(q.geometry, q.graph, {}, 9);
+    std::vector<int> carried(patch.size());
+    for (std::size_t k = 0; k < order.size(); ++k)
+        carried[static_cast<std::size_t>(order[k])] = of_shuffled[k];
+    EXPECT_GT(agreement(p.geometry, patch, carried), 0.95);
+}
+
+TEST(Oversegmentation, FacesWithoutAreaAreCoveredToo) {
+    TriMesh mesh = test::torus(1, 0.3, 24, 12);
+    for (int v = 0; v < 60; v += 4) mesh.vertices.col(v) = mesh.vertices.col(v + 1);  // edges of length 0
+    const Prepared p = prepared(mesh);
+    expect_valid(oversegment(p.geometry, p.graph, {}, 1), p.graph, 50);
+}
+
+TEST(Oversegmentation, VirtualEdgesJoinComponents) {
+    Prepared p = prepared(test::disjoint_union(test::sphere(2), test::box(4, 1, 1, 8)));
+    expect_valid(oversegment(p.geometry, p.graph, {}, 1), p.graph, 50);
+    std::erase_if(p.graph.edges, [](const DualEdge& e) { return e.is_virtual; });
+    DualGraph joined{
+        .face_count = p.graph.face_count, .edges = p.graph.edges, .offsets = {0}, .incident = {}};
+    joined.edges.push_back({.face_a = 0,
+                            .face_b = p.graph.face_count - 1,
+                            .length = 0.01,
+                            .dihedral = std::numbers::pi,
+                            .is_virtual = true});
+    for (int f = 0; f < joined.face_count; ++f) {
+        for (std::size_t e = 0; e < joined.edges.size(); ++e) {
+            if (joined.edges[e].face_a == f || joined.edges[e].face_b == f)
+                joined.incident.push_back(static_cast<int>(e));
+        }
+        joined.offsets.push_back(static_cast<int>(joined.incident.size()));
+    }
+    expect_valid(oversegment(p.geometry, joined, {.patches = 1}, 1), joined, 1);
+    const std::vector<int> two = oversegment(p.geometry, joined, {.patches = 2}, 1);
+    for (std::size_t f = 0; f < two.size(); ++f)
+        EXPECT_EQ(two[f], f < 320 ? 0 : 1);  // the virtual edge is the cheapest cut
+}
+
+TEST(Oversegmentation, RejectsImpossibleOptions) {
+    const Prepared p = prepared(test::sphere(1));
+    EXPECT_THROW(oversegment(p.geometry, p.graph, {.patches = 0}, 1), Error);
+    EXPECT_THROW(oversegment(p.geometry, p.graph, {.noise = -1}, 1), Error);
+}
+
+TEST(DihedralCost, FallsFromFlatToConcaveAndStaysOneWhenConvex) {
+    const auto cost = [](double theta) { return dihedral_cost({.dihedral = theta}); };
+    EXPECT_DOUBLE_EQ(cost(std::numbers::pi), 1.0);
+    EXPECT_DOUBLE_EQ(cost(1.5 * std::numbers::pi), 1.0);
+    EXPECT_NEAR(cost(0.5 * std::numbers::pi), std::pow(0.5, 10), 1e-12);
+    EXPECT_DOUBLE_EQ(cost(0.1), 1e-4);
+}
+
+/// Share of the area that is right if every patch takes the true label with the largest area in it.
+double majority_bound(const FaceGeometry& geometry, const std::vector<int>& patch,
+                      const std::vector<int>& truth) {
+    return agreement(geometry, patch, truth);
+}
+
+TEST(Oversegmentation, RealShapesAreFiftyPatchesThatFollowTheTruth) {
+    const std::filesystem::path data = test::data_folder();
+    if (data.empty()) GTEST_SKIP() << "no labelled shapes: set COSEG_DATA to their folder";
+    const std::map<std::string, double> lowest{
+        {"psb_airplane", 0.92}, {"psb_plier", 0.93}, {"coseg_chairs", 0.97}, {"humans_adobe", 0.88}};
+    for (const auto& [set, bound] : lowest) {
+        const std::filesystem::path off = test::off_files(data / set).front();
+        const Prepared p = prepared(test::read_off(off));
+        const std::vector<int> truth = test::read_seg(std::filesystem::path(off).replace_extension(".seg"));
+        const std::vector<int> patch = oversegment(p.geometry, p.graph, {}, hash_text(off.stem().string()));
+        expect_valid(patch, p.graph, 50);
+        const double found = majority_bound(p.geometry, patch, truth);
+        EXPECT_GT(found, bound) << off;
+        RecordProperty(set, std::to_string(found));
+    }
+}
+
+}  // namespace
+}  // namespace coseg

@@ -1,0 +1,76 @@
+#include "src/remesh/mapped_remesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "src/base/error.hpp"
+#include "src/mesh/face_geometry.hpp"
+#include "tests/support/shapes.hpp"
+#include "tests/support/surface_checks.hpp"
+
+namespace coseg {
+namespace {
+
+FaceMap identity_map(int faces) {
+    FaceMap map;
+    map.input_faces = faces;
+    map.input_face.resize(static_cast<std::size_t>(faces));
+    std::iota(map.input_face.begin(), map.input_face.end(), 0);
+    map.stand_in = map.input_face;
+    return map;
+}
+
+TEST(MappedRemesh, BoxOfTwelveTrianglesKeepsItsSidesAndTheWayBack) {
+    const TriMesh box = test::box(1.0, 0.2, 0.3, 1);
+    ASSERT_EQ(box.face_count(), 12);
+    TriMesh mesh = box;
+    FaceMap map = identity_map(12);
+    remesh_evenly(mesh, map, 3000);
+    EXPECT_TRUE(test::is_closed_and_oriented(mesh));
+    EXPECT_NEAR(test::volume(mesh), 0.06, 1e-9);  // creases do not move
+    EXPECT_GT(mesh.face_count(), 2000);
+    ASSERT_EQ(map.input_face.size(), static_cast<std::size_t>(mesh.face_count()));
+
+    // Labelled by side, every triangle of the box gets the label of its own side back.
+    const FaceGeometry geometry = face_geometry(mesh);
+    const auto side = [](const Eigen::Vector3d& normal) {
+        Eigen::Index axis = 0;
+        normal.cwiseAbs().maxCoeff(&axis);
+        return static_cast<int>(2 * axis + (normal[axis] > 0.0 ? 1 : 0));
+    };
+    std::vector<int> labels;
+    for (int f = 0; f < mesh.face_count(); ++f) labels.push_back(side(geometry.normal.col(f)));
+    const std::vector<int> carried = carry_labels_back(map, labels, geometry.area);
+    const FaceGeometry input = face_geometry(box);
+    ASSERT_EQ(carried.size(), 12U);
+    for (int f = 0; f < 12; ++f) EXPECT_EQ(carried[static_cast<std::size_t>(f)], side(input.normal.col(f)));
+}
+
+TEST(MappedRemesh, FacesWithoutANewTriangleTakeTheNearestLabel) {
+    TriMesh mesh = test::sphere(5);  // 20480 faces on 500
+    const FaceGeometry input = face_geometry(mesh);
+    FaceMap map = identity_map(mesh.face_count());
+    remesh_evenly(mesh, map, 500);
+    EXPECT_LT(mesh.face_count(), 3000);
+    const FaceGeometry geometry = face_geometry(mesh);
+    std::vector<int> labels;
+    for (int f = 0; f < mesh.face_count(); ++f) labels.push_back(geometry.centroid(2, f) > 0.0 ? 1 : 0);
+    const std::vector<int> carried = carry_labels_back(map, labels, geometry.area);
+    double right = 0.0;
+    for (Eigen::Index f = 0; f < input.area.size(); ++f) {
+        if (carried[static_cast<std::size_t>(f)] == (input.centroid(2, f) > 0.0 ? 1 : 0))
+            right += input.area[f];
+    }
+    EXPECT_GT(right, 0.93 * input.total_area);
+}
+
+TEST(MappedRemesh, RefusesAMeshWithoutArea) {
+    TriMesh mesh = test::sphere(0);
+    mesh.vertices.setZero();
+    FaceMap map = identity_map(mesh.face_count());
+    EXPECT_THROW(remesh_evenly(mesh, map, 100), Error);
+}
+
+}  // namespace
+}  // namespace coseg

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# The command line: help, versions, configuration files, presets, PETSc options, input forms.
+set -euo pipefail
+# shellcheck source=tests/whole_run/fixture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
+
+for command in "" run score generate solve; do
+    # shellcheck disable=SC2086
+    "$COSEG" $command --help >"$work/help" || fail "coseg $command --help"
+    grep -q -- "--help" "$work/help" || fail "coseg $command --help says nothing"
+done
+"$COSEG" --version >"$work/version"
+for library in coseg MPI PETSc SLEPc Eigen Embree OpenMesh; do
+    grep -q "^$library " "$work/version" || fail "--version does not name $library"
+done
+refuses "no subcommand" 2 "subcommand" "$COSEG"
+refuses "unknown subcommand" 2 "segment" "$COSEG" segment
+
+mkdir "$work/set"
+peanut "$work/set/a.off" 0.5
+peanut "$work/set/b.off" 0.6
+peanut "$work/set/c.off" 0.7
+common=(--quiet --patches 10 --geodesic-samples 40)
+
+"$COSEG" run "${common[@]}" --parts 2 --alpha 0.02 --preset paper --lambda 10 --out "$work/by_option" "$work/set"
+printf 'parts = 2\nalpha = 0.02\npreset = "paper"\nlambda = 10\n' >"$work/run.toml"
+"$COSEG" run "${common[@]}" --config "$work/run.toml" --out "$work/by_file" "$work/set"
+diff -r "$work/by_option/labels" "$work/by_file/labels" || fail "a configuration file gives other labels"
+python3 - "$work/by_option/report.json" "$work/by_file/report.json" <<'END' || fail "resolved options"
+import json, sys
+by_option, by_file = (json.load(open(path))["options"] for path in sys.argv[1:])
+for options in (by_option, by_file):
+    del options["out"], options["config"]
+assert by_option == by_file, (by_option, by_file)
+assert by_option["alpha"] == 0.02 and by_option["lambda"] == 10 and by_option["scope"] == "paper"
+assert by_option["oversegmentations"] == 1 and by_option["adjacency"] == 0
+END
+printf 'parts = 2\nno_such_key = 1\n' >"$work/wrong.toml"
+refuses "unknown key in a file" 2 "no_such_key" "$COSEG" run "${common[@]}" --config "$work/wrong.toml" --out "$work/x" "$work/set"
+printf '[solve]\nparts = 2\n' >"$work/section.toml"
+refuses "section of another command" 2 "[solve]" "$COSEG" run "${common[@]}" --config "$work/section.toml" --out "$work/x" "$work/set"
+printf 'parts =\n' >"$work/valueless.toml"
+refuses "key without a value" 2 "'parts'" "$COSEG" run "${common[@]}" --config "$work/valueless.toml" --out "$work/x" "$work/set"
+refuses "configuration file that is a folder" 2 "$work/set" \
+    "$COSEG" run "${common[@]}" --config "$work/set" --parts 2 --out "$work/x" "$work/set"
+refuses "output that cannot be written" 4 "standard output" bash -c "'$COSEG' generate list >/dev/full"
+printf '[run]\nfeature-weights = [1, 0, 1, 0, 1]\ninput = ["%s"]\n' "$work/set" >"$work/weights.toml"
+"$COSEG" run "${common[@]}" --config "$work/weights.toml" --parts 2 --out "$work/weights"
+[[ -f $work/weights/report.json ]] || fail "inputs and weights in a file"
+refuses "configuration file that is missing" 2 "$work/none.toml" \
+    "$COSEG" run "${common[@]}" --config "$work/none.toml" --parts 2 --out "$work/x" "$work/set"
+
+"$COSEG" run "${common[@]}" --parts 3 --no-choose --refine none --out "$work/voted" "$work/set"
+"$COSEG" run "${common[@]}" --parts 3 --no-choose --refine fuzzy --out "$work/fuzzy" "$work/set"
+diff -rq "$work/voted/labels" "$work/fuzzy/labels" >"$work/differences" && fail "--refine fuzzy moves nothing"
+refuses "an unknown refinement" 2 "--refine" "$COSEG" run "${common[@]}" --parts 2 --refine maybe --out "$work/x" "$work/set"
+
+printf '# two of them\nset/a.off\n\nset/c.off\n' >"$work/list.txt"
+"$COSEG" run "${common[@]}" --parts 2 --out "$work/listed" "@$work/list.txt"
+[[ $(ls "$work/listed/labels") == $'a.seg\nc.seg' ]] || fail "a list of meshes"
+
+"$COSEG" run "${common[@]}" --parts 2 --out "$work/petsc" "$work/set" -- -eps_ncv 40
+[[ -f $work/petsc/report.json ]] || fail "options of PETSc"
+refuses "folder below a file" 4 "$work/list.txt" "$COSEG" run "${common[@]}" --parts 2 --out "$work/list.txt/x" "$work/set"
+echo "ok: options"

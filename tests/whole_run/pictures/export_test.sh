@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# VTK's own readers find in the exported files what the run wrote: shapes, parts, patches, descriptors, the grid, colours.
+set -euo pipefail
+# shellcheck source=tests/whole_run/fixture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
+
+"$COSEG" generate pliers --count 4 --seed 2 --faces 2000 --out "$work/set" >"$work/out"
+"$COSEG" run --quiet --patches 20 --oversegmentations 1 --geodesic-samples 40 --no-choose --parts 3 \
+    --out "$work/result" "$work/set/meshes"
+ranks 2 "$COSEG" export "$work/result" --to vtk,obj --truth "$work/set/truth" >"$work/out"
+grep -q collection.vtm "$work/out" || fail "export does not say where the collection is"
+[[ $(head -n 2 "$work/result/obj/pliers_0000.obj" | tail -n 1) == "mtllib parts.mtl" ]] || fail "OBJ without materials"
+[[ $(grep -c '^f ' "$work/result/obj/pliers_0000.obj") -eq $(wc -l <"$work/result/labels/pliers_0000.seg") ]] || fail "faces of the OBJ"
+[[ $(grep -c newmtl "$work/result/obj/parts.mtl") -eq 3 ]] || fail "materials"
+refuses "an unknown format" 2 "stl" "$COSEG" export "$work/result" --to stl
+
+python=/usr/bin/python3
+if ! "$python" -c "import vtkmodules" 2>/dev/null; then
+    echo "skipped: python3-vtk9 is not installed"
+    exit 77
+fi
+"$python" - "$work" <<'END' || fail "what VTK reads"
+import sys
+from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader, vtkXMLPolyDataReader
+from vtkmodules.vtkIOGeometry import vtkOBJReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+work = sys.argv[1]
+names = [f"pliers_{k:04d}" for k in range(4)]
+features = ["gaussian_curvature", "shape_diameter", "average_geodesic", "shape_context", "conformal_factor"]
+
+def read(reader, path):
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+def array(data, name):
+    values = data.GetCellData().GetArray(name)
+    assert values is not None, name
+    return [values.GetTuple1(i) for i in range(values.GetNumberOfTuples())]
+
+for name in names:
+    data = read(vtkXMLPolyDataReader(), f"{work}/result/vtk/{name}.vtp")
+    labels = [int(line) for line in open(f"{work}/result/labels/{name}.seg")]
+    with open(f"{work}/set/meshes/{name}.off") as file:
+        vertices, faces = map(int, file.read().split()[1:3])
+    assert (data.GetNumberOfPoints(), data.GetNumberOfPolys()) == (vertices, faces)
+    assert array(data, "part") == labels
+    assert array(data, "patch") == [int(line) for line in open(f"{work}/result/patches/{name}.seg")]
+    assert array(data, "truth") == [int(line) for line in open(f"{work}/set/truth/{name}.seg")]
+    for feature in features:
+        values = array(data, feature)
+        assert len(values) == faces and max(values) > min(values) and all(v == v for v in values), feature
+    thickness = array(data, "shape_diameter")
+    assert 0 <= min(thickness) and max(thickness) <= 1.5
+    assert data.GetCellData().GetScalars().GetName() == "part"
+    with open(f"{work}/set/meshes/{name}.off") as file:
+        first = list(map(float, file.read().split()[4:7]))
+    assert all(abs(a - b) < 1e-5 for a, b in zip(first, data.GetPoint(0)))
+    obj = read(vtkOBJReader(), f"{work}/result/obj/{name}.obj")
+    assert (obj.GetNumberOfPoints(), obj.GetNumberOfPolys()) == (vertices, faces)
+    assert read(vtkPLYReader(), f"{work}/result/ply/{name}.ply").GetNumberOfPolys() == faces
+
+blocks = read(vtkXMLMultiBlockDataReader(), f"{work}/result/vtk/collection.vtm")
+assert blocks.GetNumberOfBlocks() == 4
+boxes = [blocks.GetBlock(k).GetBounds() for k in range(4)]
+for a in range(4):
+    for b in range(a):
+        apart = any(boxes[a][2 * k] > boxes[b][2 * k + 1] or boxes[b][2 * k] > boxes[a][2 * k + 1] for k in range(3))
+        assert apart, f"shapes {a} and {b} overlap in the grid"
+assert array(blocks.GetBlock(2), "part") == [int(line) for line in open(f"{work}/result/labels/{names[2]}.seg")]
+END
+echo "ok: VTK reads what was exported"

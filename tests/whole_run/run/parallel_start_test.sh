@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# A run that is started without mpirun: on all cores, or on as many ranks as asked for, with the same bytes.
+set -euo pipefail
+# shellcheck source=tests/whole_run/fixture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
+unset COSEG_RANKS
+
+mkdir "$work/set"
+for waist in 0.4 0.5 0.6; do peanut "$work/set/waist_$waist.off" "$waist"; done
+common=(--quiet --patches 10 --geodesic-samples 40 --parts 2)
+
+# expects RANKS DIR : the report says so, and the bytes are those of one rank.
+expects() {
+    python3 - "$1" "$2/report.json" <<'END' || fail "$2: not on $1 ranks"
+import json, sys
+assert json.load(open(sys.argv[2]))["ranks"] == int(sys.argv[1])
+END
+    diff -r "$work/one/labels" "$2/labels" || fail "$2: other labels"
+}
+
+"$COSEG" run "${common[@]}" --ranks 1 --out "$work/one" "$work/set"
+expects 1 "$work/one"
+"$COSEG" run "${common[@]}" --out "$work/all" "$work/set"
+expects "$(env -u OMP_NUM_THREADS nproc)" "$work/all"
+"$COSEG" run "${common[@]}" --ranks=3 --out "$work/three" "$work/set" -- -eps_ncv 40
+expects 3 "$work/three"
+COSEG_RANKS=2 "$COSEG" run "${common[@]}" --out "$work/two" "$work/set"
+expects 2 "$work/two"
+ranks 2 "$COSEG" run "${common[@]}" --ranks 4 --out "$work/mpirun" "$work/set"
+expects 2 "$work/mpirun"
+
+refuses "a number of ranks that is none" 2 "--ranks" "$COSEG" run "${common[@]}" --ranks many --out "$work/x" "$work/set"
+refuses "a negative number of ranks" 2 "--ranks" "$COSEG" run "${common[@]}" --ranks -2 --out "$work/x" "$work/set"
+refuses "an error on all cores" 3 "no such file" "$COSEG" run "${common[@]}" --ranks 2 --out "$work/x" "$work/none"
+echo "ok: a run without mpirun"
