@@ -22,7 +22,7 @@
 
 #include "bench/mpi_program.hpp"
 #include "solvers/numeric/blas.hpp"
-#include "solvers/partition/co_segmentation_cut.hpp"
+#include "solvers/partition/patch_partition.hpp"
 #include "solvers/petsc/petsc_session.hpp"
 #include "solvers/row_scope/pass_clock.hpp"
 #include "solvers/subspace/mesh_links.hpp"
@@ -106,7 +106,7 @@ Eigen::VectorXd patch_histogram(int feature, int patch) {
 coseg::SubspaceProblem generate(const coseg::Comm& comm, int size, const Settings& settings) {
     constexpr double weight[features] = {1.0, 0.5, 1.0, 2.0, 1.0};
     coseg::SubspaceProblem problem;
-    problem.scope = settings.scope == "mesh" ? PenaltyScope::mesh : PenaltyScope::paper;
+    problem.scope = settings.scope == "mesh" ? PenaltyScope::meshes : PenaltyScope::rows;
     problem.lambda = settings.lambda;
     problem.features = coseg::FeatureMatrices(comm, std::vector<Eigen::Index>(features, bins), size);
     problem.features.for_each_column([&](Eigen::Index j, double* column) {
@@ -224,8 +224,8 @@ ordered_json pass_figures(const coseg::Comm& comm, const coseg::SubspaceProblem&
 ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& result,
                          const std::vector<int>& mesh_of, int clusters, const MemoryWatch& memory) {
     const std::vector<double> area(mesh_of.size(), 1.0);
-    const std::vector<coseg::PatchRelation> neighbors;
-    const std::vector<coseg::OverlapRelation> overlaps;
+    const std::vector<coseg::GlobalPatchNeighbors> neighbors;
+    const std::vector<coseg::GlobalPatchOverlap> overlaps;
     coseg::CutOptions options;
     options.parts = clusters;
     options.minima_rule = false;
@@ -234,7 +234,7 @@ ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& resu
     const double start = MPI_Wtime();
     const double cpu_start = coseg::PassClock::cpu_seconds();
     const coseg::CutResult cut =
-        coseg::co_segmentation_cut(comm, {result.coefficients, neighbors, overlaps, mesh_of, area}, options);
+        coseg::partition_patches(comm, {result.coefficients, neighbors, overlaps, mesh_of, area}, options);
     const double cpu = coseg::PassClock::cpu_seconds() - cpu_start;
     return {{"clusters", clusters},
             {"seconds", coseg::all_max(comm, MPI_Wtime() - start)},
@@ -339,7 +339,7 @@ int program(int argc, char** argv) {
     app.add_option("--scope", settings.scope, "paper or mesh")->check(CLI::IsMember({"paper", "mesh"}));
     app.add_option("--lambda", settings.lambda, "Penalty of the scope")->capture_default_str();
     app.add_option("--links", settings.links,
-                   "Scope mesh: meshes in which a patch may have matches; 0 is the default rule")
+                   "Mesh scope: meshes in which a patch may have matches; 0 is the default rule")
         ->capture_default_str();
     app.add_option("--clusters", settings.clusters, "Also cut the answer into so many clusters")
         ->delimiter(',');

@@ -100,7 +100,7 @@ void run_case(const coseg::Comm& comm, const SubspaceProblem& problem, const std
     summary.slowest = std::max(summary.slowest, seconds);
     summary.total += seconds;
     const ordered_json line{{"kind", kind},
-                            {"scope", problem.scope == PenaltyScope::mesh ? "mesh" : "paper"},
+                            {"scope", problem.scope == PenaltyScope::meshes ? "mesh" : "paper"},
                             {"alpha", problem.alpha},
                             {"beta", problem.beta},
                             {"lambda", problem.lambda},
@@ -123,7 +123,7 @@ void run(const Settings& settings) {
         SubspaceProblem problem = generate(kind, settings);
         const double scale = kind == "counts" ? mean_square(problem) : 1.0;
         for (const std::string& scope : settings.scopes) {
-            problem.scope = scope == "mesh" ? PenaltyScope::mesh : PenaltyScope::paper;
+            problem.scope = scope == "mesh" ? PenaltyScope::meshes : PenaltyScope::rows;
             for (const double lambda : settings.lambdas) {
                 for (const double alpha : settings.alphas) {
                     for (const double beta : settings.betas) {

@@ -13,9 +13,9 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 #include "mpi_drivers/optimise/solution_output.hpp"
-#include "mpi_drivers/optimise/tile_journal.hpp"
+#include "mpi_drivers/optimise/solver_checkpoint_files.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
-#include "mpi_drivers/partition/kept_cut.hpp"
+#include "mpi_drivers/partition/partition_checkpoint.hpp"
 #include "mpi_drivers/partition/run_model.hpp"
 #include "mpi_drivers/partition/segment_stage.hpp"
 #include "mpi_drivers/partition/subset_stage.hpp"
@@ -143,17 +143,21 @@ std::string significant(double value) {
 }
 
 /// What finds and keeps the results of the optimiser and the cut in a state folder.
-struct Journals {
-    Journals(const Comm& comm, const RunState& state,
-             const std::vector<std::pair<std::string, std::string>>& resolved,
-             const std::vector<std::string>& petsc_arguments)
+struct Checkpoints {
+    Checkpoints(const Comm& comm, const RunState& state,
+                const std::vector<std::pair<std::string, std::string>>& resolved,
+                const std::vector<std::string>& petsc_arguments)
         : tiles(comm, state), cuts(comm, state, cut_option_text(resolved, petsc_arguments)) {}
-    TileJournal tiles;
-    CutJournal cuts;
+    SolverCheckpointFiles tiles;
+    PartitionCheckpoint cuts;
 };
 
-SolveJournal* tiles_of(Journals* journals) { return journals != nullptr ? &journals->tiles : nullptr; }
-CutJournal* cuts_of(Journals* journals) { return journals != nullptr ? &journals->cuts : nullptr; }
+SolverCheckpoint* tiles_of(Checkpoints* checkpoints) {
+    return checkpoints != nullptr ? &checkpoints->tiles : nullptr;
+}
+PartitionCheckpoint* cuts_of(Checkpoints* checkpoints) {
+    return checkpoints != nullptr ? &checkpoints->cuts : nullptr;
+}
 
 struct Partitioned {
     Optimisation optimisation;
@@ -169,27 +173,27 @@ void release_histograms(PatchFeatures& features, const RunOptions& options) {
 }
 
 Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures& features,
-                            const RunOptions& options, Journals* journals, StageLog& log) {
+                            const RunOptions& options, Checkpoints* checkpoints, StageLog& log) {
     Partitioned done;
     log.begin("optimise");
-    done.optimisation = optimise(comm, collection, features, options, tiles_of(journals), &log);
+    done.optimisation = optimise(comm, collection, features, options, tiles_of(checkpoints), &log);
     const SolveResult& solution = done.optimisation.result;
     log.end(describe(done.optimisation));
     if (options.parts > 1) refuse_empty_solution(solution, "the collection");
     release_histograms(features, options);
     log.begin("cut");
-    done.cut = cut_or_found(comm, collection, features, solution.coefficients, options, cuts_of(journals));
+    done.cut = cut_or_found(comm, collection, features, solution.coefficients, options, cuts_of(checkpoints));
     log.end(with_unit(static_cast<std::int64_t>(done.cut.starts.size()), "start", "starts") + ", " +
             std::to_string(options.parts) + " parts");
     return done;
 }
 
 Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
-                                 const PatchFeatures& features, const RunOptions& options, Journals* journals,
-                                 StageLog& log) {
+                                 const PatchFeatures& features, const RunOptions& options,
+                                 Checkpoints* checkpoints, StageLog& log) {
     log.begin("subsets");
     SubsetOutcome outcome =
-        partition_subsets(comm, collection, features, options, tiles_of(journals), cuts_of(journals));
+        partition_subsets(comm, collection, features, options, tiles_of(checkpoints), cuts_of(checkpoints));
     log.end(with_unit(outcome.optimisation.subsets, "subset", "subsets") + ", " +
             with_unit(outcome.optimisation.common_meshes, "common shape", "common shapes") + ", " +
             significant(100.0 * outcome.optimisation.subset_agreement) + " % agreement on these");
@@ -197,28 +201,28 @@ Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
 }
 
 Partitioned partition_stage(const Comm& comm, const Collection& collection, PatchFeatures& features,
-                            const RunOptions& options, Journals* journals, StageLog& log) {
+                            const RunOptions& options, Checkpoints* checkpoints, StageLog& log) {
     const bool whole = options.subsets == 0 || static_cast<int>(collection.meshes.size()) <= options.subsets;
-    Partitioned done = whole ? partition_whole(comm, collection, features, options, journals, log)
-                             : partition_in_subsets(comm, collection, features, options, journals, log);
+    Partitioned done = whole ? partition_whole(comm, collection, features, options, checkpoints, log)
+                             : partition_in_subsets(comm, collection, features, options, checkpoints, log);
     if (options.segments) {
         log.begin("segments");
-        done.cut = partition_segments(comm, collection, features, done.cut, options, tiles_of(journals),
-                                      cuts_of(journals));
+        done.cut = partition_segments(comm, collection, features, done.cut, options, tiles_of(checkpoints),
+                                      cuts_of(checkpoints));
         log.end("second pass");
     }
     return done;
 }
 
-ReportState summarised(const Comm& comm, const RunState& state, const Journals& journals,
+ReportState summarised(const Comm& comm, const RunState& state, const Checkpoints& checkpoints,
                        const Collection& collection) {
     ReportState summary;
     summary.folder = state.folder().path();
     for (const MeshFacts& mesh : collection.meshes)
         ++(mesh.reused ? summary.meshes_reused : summary.meshes_described);
-    summary.tiles_reused = all_sum(comm, std::int64_t{journals.tiles.found_count()});
-    summary.tiles_solved = all_sum(comm, std::int64_t{journals.tiles.kept_count()});
-    summary.cuts_reused = journals.cuts.found_count();
+    summary.tiles_reused = all_sum(comm, std::int64_t{checkpoints.tiles.found_count()});
+    summary.tiles_solved = all_sum(comm, std::int64_t{checkpoints.tiles.kept_count()});
+    summary.cuts_reused = checkpoints.cuts.found_count();
     return summary;
 }
 
@@ -276,19 +280,19 @@ void co_segment(const Comm& comm, const RunOptions& options,
     if (options.keep_features) write_features(comm, collection, features, folder.staging() + "/features.h5");
     if (state) state->end_if_asked(comm, "all meshes");
 
-    std::optional<Journals> journals;
-    if (state) journals.emplace(comm, *state, resolved, petsc_arguments);
+    std::optional<Checkpoints> checkpoints;
+    if (state) checkpoints.emplace(comm, *state, resolved, petsc_arguments);
     ModelPatches model;
     if (options.keep_model && comm.is_root()) model = model_patches(collection, features, options.seed);
     const Partitioned partitioned =
-        partition_stage(comm, collection, features, options, journals ? &*journals : nullptr, log);
+        partition_stage(comm, collection, features, options, checkpoints ? &*checkpoints : nullptr, log);
     const Optimisation& optimisation = partitioned.optimisation;
     const CutResult& cut = partitioned.cut;
     ReportState state_summary;
-    if (journals) {
-        state_summary = summarised(comm, *state, *journals, collection);
-        for (const std::string& warning : journals->tiles.warnings()) log.warn(warning);
-        for (const std::string& warning : journals->cuts.warnings()) log.warn(warning);
+    if (checkpoints) {
+        state_summary = summarised(comm, *state, *checkpoints, collection);
+        for (const std::string& warning : checkpoints->tiles.warnings()) log.warn(warning);
+        for (const std::string& warning : checkpoints->cuts.warnings()) log.warn(warning);
         state->end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
     }
 

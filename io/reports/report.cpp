@@ -105,17 +105,17 @@ Json of_partition(const Report& report) {
                           {"score", s.score},
                           {"concavity", s.concavity},
                           {"presence", s.presence},
-                          {"recall", s.recall},
+                          {"link_consistency", s.link_consistency},
                           {"explained_common", s.explained_common},
                           {"explained_own", s.explained_own}});
     }
-    return {
-        {"eigenvalues", report.eigenvalues},
-        {"starts", starts},
-        {"chosen_start", report.chosen_start},
-        {"places", {{"directions", report.place_directions}, {"correlations", report.place_correlations}}},
-        {"part_area", report.part_area},
-        {"affinity", {{"rows", report.affinity_rows}, {"part_ends", report.affinity_part_ends}}}};
+    return {{"eigenvalues", report.eigenvalues},
+            {"starts", starts},
+            {"chosen_start", report.chosen_start},
+            {"places",
+             {{"directions", report.position_directions}, {"correlations", report.position_correlations}}},
+            {"part_area", report.part_area},
+            {"affinity", {{"rows", report.affinity_rows}, {"part_ends", report.affinity_part_ends}}}};
 }
 
 Json of_features(const Report& report) {

@@ -81,7 +81,7 @@ struct ReportStart {
     double score = 0.0;
     double concavity = 0.0;
     double presence = 0.0;
-    double recall = 0.0;
+    double link_consistency = 0.0;
     std::vector<double> explained_common;  ///< per descriptor that the choice looks at
     std::vector<double> explained_own;
 };
@@ -120,9 +120,9 @@ struct Report {
     std::vector<double> eigenvalues;
     std::vector<ReportStart> starts;
     int chosen_start = 0;
-    /// Three unit vectors in the axes of the files, ascending by how well the places of linked patches agree along them.
-    std::vector<std::vector<double>> place_directions;
-    std::vector<double> place_correlations;
+    /// Three unit vectors in the axes of the files, ascending by how well the positions of linked patches agree along them.
+    std::vector<std::vector<double>> position_directions;
+    std::vector<double> position_correlations;
     std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
     std::vector<ReportStrength> feature_strengths;
     std::vector<double>

@@ -11,7 +11,7 @@
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
-#include "solvers/partition/co_segmentation_cut.hpp"
+#include "solvers/partition/patch_partition.hpp"
 #include "solvers/petsc/petsc_session.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
@@ -92,7 +92,7 @@ SubspaceProblem make_problem(const FeatureFile& file, FeatureMatrices features,
                                                "groups; items of one group are not linked to each other");
     }
     if (!mesh_scope || !keeps_scope(variant_of(settings.variant))) return problem;
-    problem.scope = PenaltyScope::mesh;
+    problem.scope = PenaltyScope::meshes;
     problem.mesh_of = file.mesh_of;
     const int meshes = 1 + *std::ranges::max_element(problem.mesh_of);
     std::vector<std::string> names = file.mesh_names;
@@ -131,12 +131,12 @@ void scale_columns(FeatureMatrices& features) {
 CutResult cut(const Comm& comm, const FeatureFile& file, const SolveResult& solution,
               const ClusterSettings& settings) {
     const auto items = static_cast<std::size_t>(solution.coefficients.size);
-    std::vector<PatchRelation> neighbors;
+    std::vector<GlobalPatchNeighbors> neighbors;
     for (std::size_t k = 0; k < file.neighbors.first.size(); ++k) {
         neighbors.push_back(
             {file.neighbors.first[k], file.neighbors.second[k], file.neighbors.weight[k], file.concavity[k]});
     }
-    std::vector<OverlapRelation> overlaps;
+    std::vector<GlobalPatchOverlap> overlaps;
     for (std::size_t k = 0; k < file.overlaps.first.size(); ++k)
         overlaps.push_back({file.overlaps.first[k], file.overlaps.second[k], file.overlaps.weight[k]});
     const std::vector<int> mesh_of = file.mesh_of.empty() ? std::vector<int>(items, 0) : file.mesh_of;
@@ -148,7 +148,7 @@ CutResult cut(const Comm& comm, const FeatureFile& file, const SolveResult& solu
     options.form = settings.affinity == "links" ? AffinityForm::links : AffinityForm::paper;
     options.minima_rule = !neighbors.empty();
     options.starts = single_start(settings.parts, settings.adjacency);
-    return co_segmentation_cut(comm, {solution.coefficients, neighbors, overlaps, mesh_of, area}, options);
+    return partition_patches(comm, {solution.coefficients, neighbors, overlaps, mesh_of, area}, options);
 }
 
 nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveResult& solution,
@@ -157,7 +157,7 @@ nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveResult
     std::vector<std::int64_t> sizes(static_cast<std::size_t>(settings.parts), 0);
     for (const int part : result.part_of_patch) ++sizes[static_cast<std::size_t>(part)];
     json.update({{"variant", settings.variant},
-                 {"scope", problem.scope == PenaltyScope::mesh ? "mesh" : "paper"},
+                 {"scope", problem.scope == PenaltyScope::meshes ? "mesh" : "paper"},
                  {"parts", settings.parts},
                  {"items_of_part", sizes}});
     if (!result.starts.empty()) json["eigenvalues"] = result.starts.front().eigenvalues;
@@ -198,7 +198,7 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
         ->check(CLI::IsMember({"auto", "paper", "mesh"}))
         ->capture_default_str();
     app.add_option("--links", settings.links,
-                   "Scope mesh: other groups in which an item may have matches, a seeded sample; 0 is all")
+                   "Mesh scope: other groups in which an item may have matches, a seeded sample; 0 is all")
         ->check(CLI::Range(0, 1 << 30))
         ->check(CLI::Validator(
             [](std::string& text) {

@@ -52,7 +52,7 @@ SubspaceProblem make_problem(const ProblemFile& file, FeatureMatrices features,
     problem.alpha = file.alpha;
     problem.beta = file.beta;
     if (settings.scope == "mesh" && keeps_scope(variant_of(settings.variant))) {
-        problem.scope = PenaltyScope::mesh;
+        problem.scope = PenaltyScope::meshes;
         for (std::int64_t i = 0; i < problem.size(); ++i) {
             problem.mesh_of.push_back(static_cast<int>(i / settings.patches_per_mesh));
         }
@@ -67,7 +67,7 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
     if (settings.links > 0 && (settings.scope != "mesh" || !keeps_scope(variant_of(settings.variant)))) {
         throw AgreedError(
             ExitCode::usage,
-            "--links needs --scope mesh and a variant that keeps it; scope paper, ssc and ssqp are "
+            "--links needs --scope mesh and a variant that keeps it; row scope, ssc and ssqp are "
             "over all pairs");
     }
     FeatureMatrices features;
@@ -80,7 +80,7 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
     if (comm.is_root()) {
         auto json = nlohmann::ordered_json::parse(certificate_json(problem, result));
         json.update({{"variant", settings.variant},
-                     {"scope", problem.scope == PenaltyScope::mesh ? "mesh" : "paper"},
+                     {"scope", problem.scope == PenaltyScope::meshes ? "mesh" : "paper"},
                      {"seconds", seconds},
                      {"ranks", comm.size()},
                      {"solver", settings.options.solver}});
@@ -107,11 +107,11 @@ Command add_solve_command(CLI::App& parent) {
         ->check(CLI::IsMember({"paper", "mesh"}))
         ->capture_default_str();
     app->add_option("--patches-per-mesh", settings->patches_per_mesh,
-                    "Scope mesh: columns that make up one mesh, in order")
+                    "Mesh scope: columns that make up one mesh, in order")
         ->check(CLI::Range(1, 1 << 30))
         ->capture_default_str();
     app->add_option("--links", settings->links,
-                    "Scope mesh: other meshes in which a column may have matches, a seeded sample; 0 is all")
+                    "Mesh scope: other meshes in which a column may have matches, a seeded sample; 0 is all")
         ->check(CLI::Validator(
             [](std::string& text) {
                 return text == "1" ? std::string("a mesh needs at least 2") : std::string();

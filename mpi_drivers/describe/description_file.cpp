@@ -59,7 +59,7 @@ void write_faces(Hdf5Writer& file, const MeshDescription& description) {
     file.attribute("overlong_area", description.overlong_area);
     file.attribute("input_faces", std::int64_t{description.map.input_faces});
     file.write("faces/input_face", description.map.input_face);
-    file.write("faces/stand_in_of_input_face", description.map.stand_in);
+    file.write("faces/label_donor_of_input_face", description.map.label_donor);
     write_vector(file, "faces/area", description.geometry.area);
     file.write_matrix("faces/normal", description.geometry.normal);
     file.write_matrix("faces/centroid", description.geometry.centroid);
@@ -129,7 +129,7 @@ void read_faces(const Hdf5Reader& file, MeshDescription& description) {
     description.overlong_area = file.number("overlong_area");
     description.map.input_faces = static_cast<int>(file.integer("input_faces"));
     description.map.input_face = file.read<std::int32_t>("faces/input_face");
-    description.map.stand_in = file.read<std::int32_t>("faces/stand_in_of_input_face");
+    description.map.label_donor = file.read<std::int32_t>("faces/label_donor_of_input_face");
     description.geometry.area = read_vector(file, "faces/area");
     description.geometry.normal = file.read_matrix("faces/normal");
     description.geometry.centroid = file.read_matrix("faces/centroid");

@@ -11,8 +11,8 @@
 #include "src/base/seeded_random.hpp"
 #include "src/histograms/feature_range.hpp"
 #include "src/histograms/histogram.hpp"
-#include "src/patches/patch_places.hpp"
-#include "src/patches/patch_relations.hpp"
+#include "src/patches/mesh_patch_pairs.hpp"
+#include "src/patches/patch_positions.hpp"
 
 namespace coseg {
 
@@ -144,7 +144,7 @@ void fill_word_histograms(const Comm& comm, const Collection& collection, const 
     }
 }
 
-/// Areas and places of all patches. Collective.
+/// Areas and positions of all patches. Collective.
 void gather_patches(const Comm& comm, const Collection& collection, PatchFeatures& features) {
     std::vector<Eigen::MatrixXd> local;
     for (const MeshDescription& mesh : collection.local) {
@@ -153,7 +153,7 @@ void gather_patches(const Comm& comm, const Collection& collection, PatchFeature
         for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
             const int count = mesh.patch_counts[s];
             columns.middleCols(next, count) << patch_areas(mesh.geometry, mesh.patches[s], count).transpose(),
-                patch_places(mesh.geometry, mesh.patches[s], count);
+                patch_positions(mesh.geometry, mesh.patches[s], count);
             next += count;
         }
         local.push_back(std::move(columns));
@@ -161,7 +161,7 @@ void gather_patches(const Comm& comm, const Collection& collection, PatchFeature
     const Eigen::MatrixXd all = gather_patch_columns(comm, collection, local, 4);
     const Eigen::VectorXd areas = all.row(0).transpose();
     features.patch_area.assign(areas.begin(), areas.end());
-    features.places = all.bottomRows(3);
+    features.positions = all.bottomRows(3);
 }
 
 /// What the allocator then holds in small pieces goes back to the system: the next stages ask for large ones.

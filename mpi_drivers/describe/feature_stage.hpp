@@ -33,7 +33,7 @@ struct PatchFeatures {
     FeatureMatrices histograms;
     std::vector<int> feature_of;     ///< which Feature each of them is
     std::vector<double> patch_area;  ///< N, each mesh's over-segmentation sums to 1
-    Eigen::Matrix3Xd places;         ///< 3 x N, see patch_places; 3 x 0 where what is cut are not patches
+    Eigen::Matrix3Xd positions;      ///< 3 x N, see patch_positions; 3 x 0 where what is cut are not patches
     /// What the choice of the partition looks at, where the histograms are gone before it; see choice_descriptors.
     std::vector<ChoiceDescriptor> choice;
     std::vector<NamedRange> ranges;  ///< the bin range of every scalar feature, for the report

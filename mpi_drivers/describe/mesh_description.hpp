@@ -14,7 +14,7 @@
 #include "src/mesh/dual_graph.hpp"
 #include "src/mesh/face_geometry.hpp"
 #include "src/mesh/polygon_mesh.hpp"
-#include "src/patches/patch_relations.hpp"
+#include "src/patches/mesh_patch_pairs.hpp"
 #include "src/repair/mesh_repair.hpp"
 
 namespace coseg {

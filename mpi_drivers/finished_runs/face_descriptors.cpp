@@ -22,7 +22,7 @@ std::vector<double> per_input_face(const FaceMap& map, const Eigen::VectorXd& va
     for (std::size_t f = 0; f < faces; ++f) {
         std::size_t from = f;
         for (std::size_t steps = 0; !(weights[from] > 0.0) && steps < faces; ++steps)
-            from = static_cast<std::size_t>(map.stand_in[from]);
+            from = static_cast<std::size_t>(map.label_donor[from]);
         if (weights[from] > 0.0) means[f] = sums[from] / weights[from];
     }
     return means;

@@ -1,11 +1,11 @@
 #pragma once
-// The iterate of scope paper as files of a state folder, one a rank, that any number of ranks can take up.
+// The iterate of row scope as files of a state folder, one a rank, that any number of ranks can take up.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "solvers/subspace/solve_journal.hpp"
+#include "solvers/subspace/solver_checkpoint.hpp"
 
 namespace coseg {
 

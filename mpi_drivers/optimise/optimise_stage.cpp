@@ -34,7 +34,7 @@ void refuse_contradictions(const RunOptions& options) {
         throw Error(ExitCode::usage,
                     "--links " + options.links +
                         ": links to some meshes only need --scope mesh and a variant that keeps it; "
-                        "scope paper, ssc and ssqp are over all pairs");
+                        "row scope, ssc and ssqp are over all pairs");
     }
 }
 
@@ -68,9 +68,9 @@ SubspaceProblem subspace_problem(const Collection& collection, const RunOptions&
     // One mesh has no other mesh to link to: its patches are then compared among themselves.
     const bool mesh_scope = options.scope == "mesh" && collection.meshes.size() > 1;
     problem.scope =
-        mesh_scope && keeps_scope(variant_of(options.variant)) ? PenaltyScope::mesh : PenaltyScope::paper;
+        mesh_scope && keeps_scope(variant_of(options.variant)) ? PenaltyScope::meshes : PenaltyScope::rows;
     problem.mesh_of = collection.numbering.mesh_of();
-    if (problem.scope == PenaltyScope::mesh) {
+    if (problem.scope == PenaltyScope::meshes) {
         std::vector<std::string> names;
         for (const MeshFacts& mesh : collection.meshes) names.push_back(mesh.name);
         problem.allowed_meshes =
@@ -82,14 +82,14 @@ SubspaceProblem subspace_problem(const Collection& collection, const RunOptions&
 }  // namespace
 
 Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunOptions& options, SolveJournal* journal, StageLog* log) {
+                      const RunOptions& options, SolverCheckpoint* checkpoint, StageLog* log) {
     agree(comm, [&] { refuse_contradictions(options); });
     const int feature = chosen_feature(features, options);
     SubspaceProblem problem = subspace_problem(collection, options);
     problem.features = features.histograms;
     Optimisation done;
     done.variant = options.variant;
-    done.scope = problem.scope == PenaltyScope::mesh ? "mesh" : "paper";
+    done.scope = problem.scope == PenaltyScope::meshes ? "mesh" : "paper";
     done.links = static_cast<int>(collection.meshes.size()) - 1;
     if (!problem.allowed_meshes.empty()) {
         done.links = 0;
@@ -105,7 +105,7 @@ Optimisation optimise(const Comm& comm, const Collection& collection, const Patc
                              .max_seconds = options.max_seconds,
                              .solver = options.solver,
                              .progress = progress,
-                             .journal = journal};
+                             .checkpoint = checkpoint};
     done.result = solve_variant(comm, problem, variant_of(options.variant), feature, solve);
     done.features = feature_labels(features, options);
     return done;

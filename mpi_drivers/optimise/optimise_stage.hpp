@@ -17,7 +17,7 @@ namespace coseg {
 struct Optimisation {
     SolveResult result;
     std::string variant;
-    std::string scope;  ///< what it came to: one mesh alone is always of scope paper, ssc and ssqp too
+    std::string scope;  ///< what it came to: one mesh alone is always of row scope, ssc and ssqp too
     int links = 0;      ///< meshes in which a patch may have matches, at most
     std::vector<std::string> features;  ///< names of the coefficients' features: H of them, or one
     int subsets = 1;                    ///< in which the collection was solved, see subset_stage.hpp
@@ -27,10 +27,11 @@ struct Optimisation {
     std::int64_t allowed_pairs = 0;  ///< that the certificate covers
 };
 
-/// journal: see SolveOptions; log: is told of the progress, and may be null. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what
+/// checkpoint: see SolveOptions; log: is told of the progress, and may be null. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what
 /// solve_variant throws.
 Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunOptions& options, SolveJournal* journal = nullptr, StageLog* log = nullptr);
+                      const RunOptions& options, SolverCheckpoint* checkpoint = nullptr,
+                      StageLog* log = nullptr);
 
 /// One line for the log.
 std::string describe(const Optimisation& optimisation);

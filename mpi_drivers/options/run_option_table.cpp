@@ -217,7 +217,7 @@ void RunOptionTable::add_optimisation(CLI::App& app) {
         optimise_group)
         ->check(CLI::IsMember({"paper", "mesh"}));
     add(app, "links", options_.links,
-        "Scope mesh: other meshes in which a patch looks for matches: all, a number (a seeded sample of "
+        "Mesh scope: other meshes in which a patch looks for matches: all, a number (a seeded sample of "
         "meshes), or "
         "auto: all in small collections",
         optimise_group)

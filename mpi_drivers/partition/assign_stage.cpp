@@ -24,7 +24,7 @@ SubspaceProblem problem_of(const Comm& self, const RunModel& model, const PatchF
         both << model.histograms[h], features.histograms[h].middleCols(first, count);
     }
     const auto meshes = static_cast<int>(model.mesh_names.size());
-    problem.scope = PenaltyScope::mesh;
+    problem.scope = PenaltyScope::meshes;
     problem.mesh_of = model.mesh_of;
     problem.mesh_of.insert(problem.mesh_of.end(), static_cast<std::size_t>(count), meshes);
     problem.allowed_meshes.resize(static_cast<std::size_t>(meshes) + 1);

@@ -18,7 +18,7 @@ struct Assigned {
     CutResult cut;  ///< without starts
 };
 
-/// Each mesh is solved where it is, with the run's patches as rows of scope mesh's problem (also where the run had another
+/// Each mesh is solved where it is, with the run's patches as rows of mesh scope's problem (also where the run had another
 /// scope or variant), and takes labels by propagate_labels: a function of the model and the mesh alone.
 /// `options`: the model's. Collective. Throws AgreedError: input where a mesh has nothing in common with the run,
 /// not_converged where a limit ends the solve.

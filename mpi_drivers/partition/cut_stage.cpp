@@ -4,8 +4,8 @@
 
 namespace coseg {
 
-std::vector<PatchRelation> local_neighbors(const Collection& collection) {
-    std::vector<PatchRelation> relations;
+std::vector<GlobalPatchNeighbors> local_neighbors(const Collection& collection) {
+    std::vector<GlobalPatchNeighbors> relations;
     for (const MeshDescription& mesh : collection.local) {
         for (std::size_t s = 0; s < mesh.neighbors.size(); ++s) {
             const int first = collection.numbering.first(mesh.mesh, static_cast<int>(s));
@@ -17,8 +17,8 @@ std::vector<PatchRelation> local_neighbors(const Collection& collection) {
     return relations;
 }
 
-std::vector<OverlapRelation> local_overlaps(const Collection& collection) {
-    std::vector<OverlapRelation> relations;
+std::vector<GlobalPatchOverlap> local_overlaps(const Collection& collection) {
+    std::vector<GlobalPatchOverlap> relations;
     for (const MeshDescription& mesh : collection.local) {
         for (const OverlapsOfPair& pair : mesh.overlaps) {
             const int first_a = collection.numbering.first(mesh.mesh, pair.oversegmentation_a);
@@ -38,8 +38,8 @@ void append(std::vector<CutStart>& starts, const std::vector<CutStart>& more) {
 }
 
 /// Whether the cut and its choice look at where patches lie.
-bool looks_at_places(const PatchFeatures& features, const RunOptions& options) {
-    return options.choose && options.places && features.places.cols() > 0;
+bool looks_at_positions(const PatchFeatures& features, const RunOptions& options) {
+    return options.choose && options.places && features.positions.cols() > 0;
 }
 
 CutOptions cut_options(const PatchFeatures& features, const RunOptions& options) {
@@ -54,7 +54,7 @@ CutOptions cut_options(const PatchFeatures& features, const RunOptions& options)
     if (options.choose) {
         cut.starts = pooled_starts(options.parts);
         if (options.articulated) append(cut.starts, articulated_starts(options.parts));
-        if (looks_at_places(features, options)) append(cut.starts, pooled_starts(options.parts, true));
+        if (looks_at_positions(features, options)) append(cut.starts, pooled_starts(options.parts, true));
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
         const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
@@ -72,14 +72,14 @@ std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, 
     // each family left out in turn (docs/method.md).
     for (std::size_t h = 0; h < features.histograms.size(); ++h) {
         const auto feature = static_cast<Feature>(features.feature_of[h]);
-        const auto add = [&](ExplainedSpread weight) {
+        const auto add = [&](BetweenPartVariance weight) {
             descriptors.push_back({features.histograms[h].cast<float>(), weight});
         };
-        if (feature == Feature::gaussian_curvature) add({.common = 0.0, .own = 1.4});
-        if (feature == Feature::shape_diameter) add({.common = 2.2, .own = 5.6});
+        if (feature == Feature::gaussian_curvature) add({.pooled = 0.0, .per_mesh = 1.4});
+        if (feature == Feature::shape_diameter) add({.pooled = 2.2, .per_mesh = 5.6});
     }
-    if (looks_at_places(features, options))
-        descriptors.push_back({features.places.cast<float>(), {.common = 1.0, .own = 0.0}});
+    if (looks_at_positions(features, options))
+        descriptors.push_back({features.positions.cast<float>(), {.pooled = 1.0, .per_mesh = 0.0}});
     return descriptors;
 }
 
@@ -91,14 +91,14 @@ CutResult cut_into_parts(const Comm& comm, const Collection& collection, const P
         return described_partition(diffusion_clusters(comm, features.histograms, diffusion), options.parts,
                                    mesh_of, features.patch_area);
     }
-    const std::vector<PatchRelation> neighbors = local_neighbors(collection);
-    const std::vector<OverlapRelation> overlaps = local_overlaps(collection);
+    const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(collection);
+    const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(collection);
     const std::vector<ChoiceDescriptor> made =
         features.choice.empty() ? choice_descriptors(features, options) : std::vector<ChoiceDescriptor>{};
     const std::vector<ChoiceDescriptor>& descriptors = features.choice.empty() ? made : features.choice;
-    return co_segmentation_cut(
+    return partition_patches(
         comm,
-        {coefficients, neighbors, overlaps, mesh_of, features.patch_area, descriptors, &features.places},
+        {coefficients, neighbors, overlaps, mesh_of, features.patch_area, descriptors, &features.positions},
         cut_options(features, options));
 }
 

@@ -4,15 +4,15 @@
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/run_options.hpp"
-#include "solvers/partition/co_segmentation_cut.hpp"
+#include "solvers/partition/patch_partition.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
 
 /// What ties the patches of this rank's meshes together, in global numbers.
-std::vector<PatchRelation> local_neighbors(const Collection& collection);
-std::vector<OverlapRelation> local_overlaps(const Collection& collection);
+std::vector<GlobalPatchNeighbors> local_neighbors(const Collection& collection);
+std::vector<GlobalPatchOverlap> local_overlaps(const Collection& collection);
 
 /// What the choice among several starts looks at, from the histograms; empty with a single start. Cuts find it in
 /// `features.choice`, or make it anew.

@@ -44,9 +44,9 @@ Segments find_segments(const Comm& comm, const Collection& collection,
     const auto join = [&](int a, int b) {
         if (part_of_patch[at(a)] == part_of_patch[at(b)]) sets.join(a, b);
     };
-    for (const PatchRelation& r : gather_relations(comm, local_neighbors(collection), patches))
+    for (const GlobalPatchNeighbors& r : gather_patch_pairs(comm, local_neighbors(collection), patches))
         join(r.patch_a, r.patch_b);
-    for (const OverlapRelation& r : gather_relations(comm, local_overlaps(collection), patches))
+    for (const GlobalPatchOverlap& r : gather_patch_pairs(comm, local_overlaps(collection), patches))
         join(r.patch_a, r.patch_b);
     Segments segments;
     segments.of_patch.assign(at(patches), -1);
@@ -142,13 +142,13 @@ PatchFeatures segment_features(const PatchFeatures& features, const Segments& se
 }  // namespace
 
 CutResult partition_segments(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                             const CutResult& first, const RunOptions& options, SolveJournal* journal,
-                             CutJournal* cuts) {
+                             const CutResult& first, const RunOptions& options, SolverCheckpoint* checkpoint,
+                             PartitionCheckpoint* cuts) {
     const Segments segments = find_segments(comm, collection, first.part_of_patch);
     const Collection whole = segment_collection(collection, segments);
     const PatchFeatures described =
         segment_features(features, segments, collection.numbering.oversegmentations(), options);
-    const Optimisation optimisation = optimise(comm, whole, described, options, journal);
+    const Optimisation optimisation = optimise(comm, whole, described, options, checkpoint);
     const CutResult cut =
         cut_or_found(comm, whole, described, optimisation.result.coefficients, options, cuts);
     std::vector<int> part_of_patch;

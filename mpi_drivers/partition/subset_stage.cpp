@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mpi_drivers/partition/part_collection.hpp"
+#include "mpi_drivers/partition/sub_collection.hpp"
 #include "src/base/error.hpp"
 #include "src/metrics/assignment.hpp"
 #include "src/patches/overlapping_subsets.hpp"
@@ -103,7 +103,8 @@ Matching match_parts(const std::vector<int>& part_of_patch, const std::vector<in
 }  // namespace
 
 SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                                const RunOptions& options, SolveJournal* journal, CutJournal* cuts) {
+                                const RunOptions& options, SolverCheckpoint* checkpoint,
+                                PartitionCheckpoint* cuts) {
     std::vector<std::string> names;
     for (const MeshFacts& mesh : collection.meshes) names.push_back(mesh.name);
     const OverlappingSubsets plan = overlapping_subsets(names, options.subsets, options.seed);
@@ -115,7 +116,7 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
     double agreement = 0.0;
     for (std::size_t s = 0; s < plan.subsets.size(); ++s) {
         PartCollection part = part_of_collection(comm, collection, features, plan.subsets[s]);
-        Optimisation optimised = optimise(comm, part.collection, part.features, options, journal);
+        Optimisation optimised = optimise(comm, part.collection, part.features, options, checkpoint);
         const CutResult cut =
             cut_or_found(comm, part.collection, part.features, optimised.result.coefficients, options, cuts);
         take_columns(comm, optimised.result.coefficients, part.patch_of, columns);

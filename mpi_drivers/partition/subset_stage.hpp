@@ -4,7 +4,7 @@
 
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
-#include "mpi_drivers/partition/kept_cut.hpp"
+#include "mpi_drivers/partition/partition_checkpoint.hpp"
 
 namespace coseg {
 
@@ -17,9 +17,10 @@ struct SubsetOutcome {
 
 /// Optimises and cuts subsets of options.subsets meshes one after the other, on all ranks. Parts of a later subset take the
 /// numbers of the first by the one assignment that agrees on most area of the common meshes. Features are those of the whole
-/// collection. The journals, of what a state folder keeps, may be null. Source: the paper, section 5 (Figure 6). Collective.
-/// Throws what optimise and cut_into_parts do, and what the journals do.
+/// collection. The checkpoints, of what a state folder keeps, may be null. Source: the paper, section 5 (Figure 6). Collective.
+/// Throws what optimise and cut_into_parts do, and what the checkpoints do.
 SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                                const RunOptions& options, SolveJournal* journal, CutJournal* cuts);
+                                const RunOptions& options, SolverCheckpoint* checkpoint,
+                                PartitionCheckpoint* cuts);
 
 }  // namespace coseg

@@ -8,8 +8,10 @@ namespace coseg {
 void write_features(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                     const std::string& path) {
     const int patches = collection.numbering.patch_count();
-    const std::vector<PatchRelation> neighbors = gather_relations(comm, local_neighbors(collection), patches);
-    const std::vector<OverlapRelation> overlaps = gather_relations(comm, local_overlaps(collection), patches);
+    const std::vector<GlobalPatchNeighbors> neighbors =
+        gather_patch_pairs(comm, local_neighbors(collection), patches);
+    const std::vector<GlobalPatchOverlap> overlaps =
+        gather_patch_pairs(comm, local_overlaps(collection), patches);
     agree(comm, [&] {
         if (!comm.is_root()) return;
         FeatureFile file;
@@ -19,13 +21,13 @@ void write_features(const Comm& comm, const Collection& collection, const PatchF
         file.mesh_of = collection.numbering.mesh_of();
         for (const MeshFacts& mesh : collection.meshes) file.mesh_names.push_back(mesh.name);
         file.patch_area = features.patch_area;
-        for (const PatchRelation& pair : neighbors) {
+        for (const GlobalPatchNeighbors& pair : neighbors) {
             file.neighbors.first.push_back(pair.patch_a);
             file.neighbors.second.push_back(pair.patch_b);
             file.neighbors.weight.push_back(pair.boundary_length);
             file.concavity.push_back(pair.concavity);
         }
-        for (const OverlapRelation& pair : overlaps) {
+        for (const GlobalPatchOverlap& pair : overlaps) {
             file.overlaps.first.push_back(pair.patch_a);
             file.overlaps.second.push_back(pair.patch_b);
             file.overlaps.weight.push_back(pair.intersection_over_union);

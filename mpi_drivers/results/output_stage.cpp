@@ -105,20 +105,20 @@ void add_partition(Report& report, const CutResult& cut) {
                         .score = start.score,
                         .concavity = start.terms.concavity,
                         .presence = start.terms.presence,
-                        .recall = start.terms.recall,
+                        .link_consistency = start.terms.link_consistency,
                         .explained_common = {},
                         .explained_own = {}};
-        for (const auto& [common, own] : start.terms.explained) {
-            row.explained_common.push_back(common);
-            row.explained_own.push_back(own);
+        for (const auto& [pooled, per_mesh] : start.terms.explained) {
+            row.explained_common.push_back(pooled);
+            row.explained_own.push_back(per_mesh);
         }
         report.starts.push_back(std::move(row));
     }
     report.chosen_start = cut.chosen;
     for (int a = 0; a < 3; ++a) {
         const Eigen::Vector3d direction = cut.frame.directions.col(a).normalized();
-        report.place_directions.push_back({direction[0], direction[1], direction[2]});
-        report.place_correlations.push_back(cut.frame.correlation[a]);
+        report.position_directions.push_back({direction[0], direction[1], direction[2]});
+        report.position_correlations.push_back(cut.frame.correlation[a]);
     }
     if (cut.starts.empty()) return;  // one part needs no cut
     report.eigenvalues = cut.starts[static_cast<std::size_t>(cut.chosen)].eigenvalues;

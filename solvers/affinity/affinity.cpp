@@ -39,7 +39,7 @@ SparseRows plus_transpose(const Comm& comm, const SparseCoefficients& coefficien
 }
 
 /// The weight of `pair` in each mesh's own scale.
-double adjacency_weight(const PatchRelation& pair) {
+double adjacency_weight(const GlobalPatchNeighbors& pair) {
     const double flat = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
     const double square = flat * flat;
     return pair.boundary_length * square * square * flat;
@@ -71,7 +71,7 @@ SparseRows normalized_links(const Comm& comm, const SparseCoefficients& coeffici
     return plus_transpose(comm, coefficients, shares);
 }
 
-void apply_minima_rule(SparseRows& affinity, const std::vector<PatchRelation>& neighbors) {
+void apply_minima_rule(SparseRows& affinity, const std::vector<GlobalPatchNeighbors>& neighbors) {
     const auto weaken = [&](int row, int column, double factor) {
         if (!affinity.rows.contains(row)) return;
         const auto r = static_cast<std::size_t>(row - affinity.rows.begin);
@@ -81,23 +81,23 @@ void apply_minima_rule(SparseRows& affinity, const std::vector<PatchRelation>& n
         if (place == end || *place != column) return;
         affinity.values[static_cast<std::size_t>(place - affinity.columns.begin())] *= factor;
     };
-    for (const PatchRelation& pair : neighbors) {
+    for (const GlobalPatchNeighbors& pair : neighbors) {
         const double factor = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
         weaken(pair.patch_a, pair.patch_b, factor);
         weaken(pair.patch_b, pair.patch_a, factor);
     }
 }
 
-SparseRows adjacency_affinity(BlockRange range, const std::vector<PatchRelation>& neighbors,
+SparseRows adjacency_affinity(BlockRange range, const std::vector<GlobalPatchNeighbors>& neighbors,
                               const std::vector<int>& mesh_of) {
     const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
     std::vector<double> mesh_total(static_cast<std::size_t>(meshes), 0.0);
-    const auto mesh = [&](const PatchRelation& pair) {
+    const auto mesh = [&](const GlobalPatchNeighbors& pair) {
         return static_cast<std::size_t>(mesh_of[static_cast<std::size_t>(pair.patch_a)]);
     };
-    for (const PatchRelation& pair : neighbors) mesh_total[mesh(pair)] += 2.0 * adjacency_weight(pair);
+    for (const GlobalPatchNeighbors& pair : neighbors) mesh_total[mesh(pair)] += 2.0 * adjacency_weight(pair);
     std::vector<SparseEntry> entries;
-    for (const PatchRelation& pair : neighbors) {
+    for (const GlobalPatchNeighbors& pair : neighbors) {
         if (mesh_total[mesh(pair)] <= 0.0) continue;
         const double value = adjacency_weight(pair) / mesh_total[mesh(pair)];
         add_both_ways(range, pair.patch_a, pair.patch_b, value, entries);
@@ -105,10 +105,10 @@ SparseRows adjacency_affinity(BlockRange range, const std::vector<PatchRelation>
     return rows_from_entries(static_cast<std::int64_t>(mesh_of.size()), range, std::move(entries));
 }
 
-SparseRows overlap_affinity(BlockRange range, const std::vector<OverlapRelation>& overlaps,
+SparseRows overlap_affinity(BlockRange range, const std::vector<GlobalPatchOverlap>& overlaps,
                             std::int64_t size) {
     std::vector<SparseEntry> entries;
-    for (const OverlapRelation& pair : overlaps) {
+    for (const GlobalPatchOverlap& pair : overlaps) {
         add_both_ways(range, pair.patch_a, pair.patch_b, pair.intersection_over_union, entries);
     }
     return rows_from_entries(size, range, std::move(entries));

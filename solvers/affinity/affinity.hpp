@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solvers/affinity/patch_links.hpp"
+#include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
@@ -19,20 +19,20 @@ SparseRows symmetric_affinity(const Comm& comm, const SparseCoefficients& coeffi
 /// normalised. Collective.
 SparseRows normalized_links(const Comm& comm, const SparseCoefficients& coefficients);
 
-/// S_ij <- S_ij (1 - mc) for patches i, j with a common boundary. `neighbors` as from gather_relations.
+/// S_ij <- S_ij (1 - mc) for patches i, j with a common boundary. `neighbors` as from gather_patch_pairs.
 /// Source: the paper, the minima rule. Entries that do not exist stay so.
-void apply_minima_rule(SparseRows& affinity, const std::vector<PatchRelation>& neighbors);
+void apply_minima_rule(SparseRows& affinity, const std::vector<GlobalPatchNeighbors>& neighbors);
 
 /// A_ij = boundary length (1 - mc)^5, each mesh scaled to a total of 1; rows `range`. `mesh_of`: mesh of each
 /// patch. Deviates: not in the paper, whose minima rule only weakens entries that exist. The
 /// exponent decides how much of A lies across the boundaries of true parts: with 3 and 5, 4.3 and 3.0 % on
 /// aeroplanes, 6.4 and 5.4 % on pliers.
-SparseRows adjacency_affinity(BlockRange range, const std::vector<PatchRelation>& neighbors,
+SparseRows adjacency_affinity(BlockRange range, const std::vector<GlobalPatchNeighbors>& neighbors,
                               const std::vector<int>& mesh_of);
 
 /// O_ij = intersection over union of two patches of different over-segmentations; rows `range` of a matrix of
 /// `size`. Deviates: the paper has one over-segmentation a mesh.
-SparseRows overlap_affinity(BlockRange range, const std::vector<OverlapRelation>& overlaps,
+SparseRows overlap_affinity(BlockRange range, const std::vector<GlobalPatchOverlap>& overlaps,
                             std::int64_t size);
 
 }  // namespace coseg

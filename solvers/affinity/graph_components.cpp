@@ -47,13 +47,14 @@ void join_over_ranks(const Comm& comm, int size, DisjointSets& sets) {
     for (std::size_t k = 0; k < edges.size(); k += 2) sets.join(edges[k], edges[k + 1]);
 }
 
-/// Per label the bonds from `row` to rows that have it; the heaviest label, or -1.
-int heaviest_label(const SparseRows& bonds, std::size_t row, const std::vector<int>& labels) {
+/// Per label the within_mesh_affinity from `row` to rows that have it; the heaviest label, or -1.
+int heaviest_label(const SparseRows& within_mesh_affinity, std::size_t row, const std::vector<int>& labels) {
     std::map<int, double> weight;
-    for (auto k = static_cast<std::size_t>(bonds.offsets[row]);
-         k < static_cast<std::size_t>(bonds.offsets[row + 1]); ++k) {
-        const int label = labels[static_cast<std::size_t>(bonds.columns[k])];
-        if (label >= 0 && bonds.values[k] > 0.0) weight[label] += bonds.values[k];
+    for (auto k = static_cast<std::size_t>(within_mesh_affinity.offsets[row]);
+         k < static_cast<std::size_t>(within_mesh_affinity.offsets[row + 1]); ++k) {
+        const int label = labels[static_cast<std::size_t>(within_mesh_affinity.columns[k])];
+        if (label >= 0 && within_mesh_affinity.values[k] > 0.0)
+            weight[label] += within_mesh_affinity.values[k];
     }
     int best = -1;
     double most = 0.0;
@@ -100,14 +101,14 @@ std::vector<std::vector<int>> main_components(const std::vector<int>& component_
     return sorted;
 }
 
-int attach_set_aside(std::vector<int>& labels, const SparseRows& bonds, int fallback) {
+int attach_set_aside(std::vector<int>& labels, const SparseRows& within_mesh_affinity, int fallback) {
     std::vector<std::size_t> waiting;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] < 0) waiting.push_back(i);
     }
     while (!waiting.empty()) {
         const std::vector<int> before = labels;
-        for (const std::size_t i : waiting) labels[i] = heaviest_label(bonds, i, before);
+        for (const std::size_t i : waiting) labels[i] = heaviest_label(within_mesh_affinity, i, before);
         const std::size_t count = waiting.size();
         std::erase_if(waiting, [&](std::size_t i) { return labels[i] >= 0; });
         if (waiting.size() == count) break;

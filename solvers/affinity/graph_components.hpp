@@ -19,9 +19,9 @@ std::vector<int> connected_components(const Comm& comm, const SparseRows& graph)
 /// row is "set aside": a cluster of its own would be the cheapest cut of all, and never a part of a shape.
 std::vector<std::vector<int>> main_components(const std::vector<int>& component_of_row, int parts);
 
-/// Gives every row of label -1 the label to which the complete, symmetric `bonds` tie it most, starting from
+/// Gives every row of label -1 the label to which the complete, symmetric `within_mesh_affinity` tie it most, starting from
 /// rows that have one and spreading in rounds (ties: lowest label). Returns how many rows no bond reaches:
 /// these take `fallback`.
-int attach_set_aside(std::vector<int>& labels, const SparseRows& bonds, int fallback);
+int attach_set_aside(std::vector<int>& labels, const SparseRows& within_mesh_affinity, int fallback);
 
 }  // namespace coseg

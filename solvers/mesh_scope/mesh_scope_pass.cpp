@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "solvers/mesh_scope/excess_squares.hpp"
+#include "solvers/mesh_scope/mesh_scope_kernel.hpp"
 #include "solvers/numeric/blas.hpp"
 
 namespace coseg {

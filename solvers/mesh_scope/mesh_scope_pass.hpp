@@ -1,5 +1,5 @@
 #pragma once
-// Scope mesh's look at all allowed pairs of some columns: what must enter their working sets, and how far
+// Mesh scope's look at all allowed pairs of some columns: what must enter their working sets, and how far
 // their decrease can still go.
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "solvers/mesh_scope/column_model.hpp"
+#include "solvers/mesh_scope/mesh_scope_column.hpp"
 #include "solvers/subspace/feature_stack.hpp"
 
 namespace coseg {

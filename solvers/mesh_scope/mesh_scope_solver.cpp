@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "solvers/mesh_scope/column_model.hpp"
+#include "solvers/mesh_scope/mesh_scope_column.hpp"
 #include "solvers/mesh_scope/mesh_scope_pass.hpp"
 #include "solvers/numeric/exact_sum.hpp"
 
@@ -241,7 +241,7 @@ bool MeshScopeSolver::add_violators(Column& column, const ColumnVerdict& verdict
 }
 
 void MeshScopeSolver::solve_working_set(Column& column) {
-    ColumnModel model(stack_, penalties_, column.working);
+    MeshScopeColumn model(stack_, penalties_, column.working);
     const auto stop = [&](const SpectralProgress& progress) {
         ++column.iterations;
         column.residual = progress.residual / (2.0 * stack_.largest_inner);
@@ -373,19 +373,20 @@ SolveResult solve_mesh_scope(const Comm& comm, const SubspaceProblem& problem, c
     ExactSum sums(0, 1.0, 2);
     Totals totals;
     bool stopped = false;
-    SolveJournal* journal = options.journal;
-    if (journal != nullptr) journal->open(problem, options, owned);
+    SolverCheckpoint* checkpoint = options.checkpoint;
+    if (checkpoint != nullptr) checkpoint->open(problem, options, owned);
     for (std::int64_t begin = owned.begin; begin < owned.end && !stopped; begin += coefficient_tile) {
-        const std::optional<SolvedTile> known = journal != nullptr ? journal->find(begin) : std::nullopt;
+        const std::optional<SolvedTile> known =
+            checkpoint != nullptr ? checkpoint->find(begin) : std::nullopt;
         const SolvedTile tile =
             known ? *known : solver.solve_tile(begin, std::min(begin + coefficient_tile, owned.end));
         add_tile(tile, result.coefficients, sums, totals);
         if (options.progress) options.progress(tile.end - owned.begin, owned.size());
-        if (journal == nullptr) continue;
-        if (!known && !solver.timed_out()) journal->keep(tile);
-        stopped = journal->should_stop();
+        if (checkpoint == nullptr) continue;
+        if (!known && !solver.timed_out()) checkpoint->keep(tile);
+        stopped = checkpoint->should_stop();
     }
-    if (journal != nullptr) journal->close(stopped);
+    if (checkpoint != nullptr) checkpoint->close(stopped);
     finish_result(comm, totals, solver, options.gap, sums, result);
     return result;
 }

@@ -28,13 +28,13 @@ Eigen::MatrixXd dense(const SparseRows& matrix) {
 
 }  // namespace
 
-std::vector<int> propagate_labels(const PropagationInput& input, double bonds) {
+std::vector<int> propagate_labels(const PropagationInput& input, double within_mesh_affinity) {
     const Eigen::Index patches = input.evidence.cols();
     if (patches == 0 || input.evidence.rows() == 0 || !input.evidence.allFinite())
         throw Error(ExitCode::internal, "labels cannot be propagated: the links are empty or not finite");
     const BlockRange all{0, patches};
     const std::vector<int> one_mesh(static_cast<std::size_t>(patches), 0);
-    const double scale = bonds * input.evidence.sum();
+    const double scale = within_mesh_affinity * input.evidence.sum();
     const Eigen::MatrixXd ties = scale * (dense(adjacency_affinity(all, input.neighbors, one_mesh)) +
                                           dense(overlap_affinity(all, input.overlaps, patches)));
     Eigen::MatrixXd laplacian = -ties;

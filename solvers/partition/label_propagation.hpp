@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solvers/affinity/patch_links.hpp"
+#include "solvers/affinity/global_patch_pairs.hpp"
 
 namespace coseg {
 
@@ -12,16 +12,16 @@ struct PropagationInput {
     /// K x n: the share of each patch's links that goes to patches of each known part; columns sum to 1, or are 0 for a
     /// patch without links.
     Eigen::MatrixXd evidence;
-    std::vector<PatchRelation> neighbors;   ///< patches 0 .. n - 1 of one mesh
-    std::vector<OverlapRelation> overlaps;  ///< likewise
+    std::vector<GlobalPatchNeighbors> neighbors;  ///< patches 0 .. n - 1 of one mesh
+    std::vector<GlobalPatchOverlap> overlaps;     ///< likewise
 };
 
 /// The part of each patch: the known ones are clamped and the others take the minimum of the same quadratic form as the
-/// cut's, sum over pairs of S_ij ||f_i - f_j||^2, in the graph S = C + g (A + O) of affinity.hpp, g = `bonds`, A and O
+/// cut's, sum over pairs of S_ij ||f_i - f_j||^2, in the graph S = C + g (A + O) of affinity.hpp, g = `within_mesh_affinity`, A and O
 /// scaled to the total of C; then the part of the largest value (ties: the lowest). Patches without any tie to a known
 /// part get -1. Serial. Throws Error(internal) for sizes that do not fit.
 ///
 /// Source: Zhu, Ghahramani, Lafferty 2003 (harmonic functions); it is the cut's relaxation with known labels.
-std::vector<int> propagate_labels(const PropagationInput& input, double bonds);
+std::vector<int> propagate_labels(const PropagationInput& input, double within_mesh_affinity);
 
 }  // namespace coseg

@@ -112,10 +112,11 @@ std::vector<int> rows_matched(const SparseRows& links, const std::vector<int>& l
 
 }  // namespace
 
-double boundary_concavity(const std::vector<PatchRelation>& neighbors, const std::vector<int>& labels) {
+double boundary_concavity(const std::vector<GlobalPatchNeighbors>& neighbors,
+                          const std::vector<int>& labels) {
     double length = 0.0;
     double concave = 0.0;
-    for (const PatchRelation& pair : neighbors) {
+    for (const GlobalPatchNeighbors& pair : neighbors) {
         if (labels[static_cast<std::size_t>(pair.patch_a)] == labels[static_cast<std::size_t>(pair.patch_b)])
             continue;
         length += pair.boundary_length;
@@ -147,10 +148,10 @@ double presence(const Eigen::MatrixXd& shares) {
     return static_cast<double>(present) / static_cast<double>(shares.size());
 }
 
-double boundary_crease(const std::vector<PatchRelation>& neighbors, const std::vector<int>& labels,
+double boundary_crease(const std::vector<GlobalPatchNeighbors>& neighbors, const std::vector<int>& labels,
                        int meshes) {
     double cost = 0.0;
-    for (const PatchRelation& pair : neighbors) {
+    for (const GlobalPatchNeighbors& pair : neighbors) {
         if (labels[static_cast<std::size_t>(pair.patch_a)] == labels[static_cast<std::size_t>(pair.patch_b)])
             continue;
         const double flat = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
@@ -159,11 +160,11 @@ double boundary_crease(const std::vector<PatchRelation>& neighbors, const std::v
     return -cost / static_cast<double>(meshes);
 }
 
-double overlap_agreement(const std::vector<OverlapRelation>& overlaps, const std::vector<int>& labels,
+double overlap_agreement(const std::vector<GlobalPatchOverlap>& overlaps, const std::vector<int>& labels,
                          const std::vector<double>& patch_area) {
     std::vector<double> all(labels.size(), 0.0);
     std::vector<double> own(labels.size(), 0.0);
-    for (const OverlapRelation& pair : overlaps) {
+    for (const GlobalPatchOverlap& pair : overlaps) {
         const auto a = static_cast<std::size_t>(pair.patch_a);
         const auto b = static_cast<std::size_t>(pair.patch_b);
         for (const std::size_t i : {a, b}) {
@@ -181,8 +182,8 @@ double overlap_agreement(const std::vector<OverlapRelation>& overlaps, const std
     return area > 0.0 ? agreed / area : 1.0;
 }
 
-double match_recall(const Comm& comm, const SparseRows& links, const std::vector<int>& labels, int parts,
-                    const std::vector<double>& patch_area) {
+double link_consistency(const Comm& comm, const SparseRows& links, const std::vector<int>& labels, int parts,
+                        const std::vector<double>& patch_area) {
     std::vector<int> matched = rows_matched(links, labels, parts);
     if (comm.size() > 1) matched = all_gather(comm, std::span<const int>(matched));
     std::vector<double> area(static_cast<std::size_t>(parts), 0.0);
@@ -196,13 +197,14 @@ double match_recall(const Comm& comm, const SparseRows& links, const std::vector
     return sum / static_cast<double>(parts);
 }
 
-ExplainedSpread explained_spread(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
-                                 const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
+BetweenPartVariance between_part_variance(const Eigen::MatrixXf& histograms, const std::vector<int>& labels,
+                                          int parts, const std::vector<double>& patch_area,
+                                          const std::vector<int>& mesh_of) {
     const HistogramSums sums = sums_of_parts(histograms, labels, parts, patch_area, mesh_of);
     const Eigen::Index meshes = sums.area.cols();
     Eigen::MatrixXd deviations = Eigen::MatrixXd::Zero(histograms.rows(), parts);
     double of_means = 0.0;
-    double own = 0.0;
+    double per_mesh = 0.0;
     for (Eigen::Index m = 0; m < meshes; ++m) {
         const double area = sums.area.col(m).sum();
         if (!(area > 0.0)) continue;
@@ -213,22 +215,23 @@ ExplainedSpread explained_spread(const Eigen::MatrixXf& histograms, const std::v
             const double a = sums.area(p, m);
             if (!(a > 0.0)) continue;
             const Eigen::VectorXd deviation = of_mesh.col(p) - a * mean;
-            own += deviation.squaredNorm() / a;
+            per_mesh += deviation.squaredNorm() / a;
             deviations.col(p) += deviation;
         }
     }
     const double spread = sums.squares - of_means;
     if (!(spread > 1e-12 * sums.squares)) return {};
-    double common = 0.0;
+    double pooled = 0.0;
     for (int p = 0; p < parts; ++p) {
         const double a = sums.area.row(p).sum();
-        if (a > 0.0) common += deviations.col(p).squaredNorm() / a;
+        if (a > 0.0) pooled += deviations.col(p).squaredNorm() / a;
     }
-    return {.common = std::clamp(common / spread, 0.0, 1.0), .own = std::clamp(own / spread, 0.0, 1.0)};
+    return {.pooled = std::clamp(pooled / spread, 0.0, 1.0),
+            .per_mesh = std::clamp(per_mesh / spread, 0.0, 1.0)};
 }
 
 std::vector<double> partition_scores(std::span<const PartitionTerms> partitions, const ChoiceWeights& weights,
-                                     std::span<const ExplainedSpread> descriptor_weights) {
+                                     std::span<const BetweenPartVariance> descriptor_weights) {
     std::vector<double> scores(partitions.size(), 0.0);
     if (partitions.empty()) return scores;
     const auto add = [&](double weight, double least, const auto& term) {
@@ -237,10 +240,10 @@ std::vector<double> partition_scores(std::span<const PartitionTerms> partitions,
     add(weights.crease, weights.least_crease, [](const PartitionTerms& p) { return p.crease; });
     add(weights.overlap, weights.least_overlap, [](const PartitionTerms& p) { return p.overlap; });
     for (std::size_t h = 0; h < descriptor_weights.size(); ++h) {
-        add(descriptor_weights[h].common, weights.least_explained,
-            [h](const PartitionTerms& p) { return p.explained[h].common; });
-        add(descriptor_weights[h].own, weights.least_explained,
-            [h](const PartitionTerms& p) { return p.explained[h].own; });
+        add(descriptor_weights[h].pooled, weights.least_explained,
+            [h](const PartitionTerms& p) { return p.explained[h].pooled; });
+        add(descriptor_weights[h].per_mesh, weights.least_explained,
+            [h](const PartitionTerms& p) { return p.explained[h].per_mesh; });
     }
     return scores;
 }
@@ -258,7 +261,7 @@ std::size_t best_partition(std::span<const PartitionTerms> partitions, std::span
     };
     add(weights.concavity, [](const PartitionTerms& p) { return p.concavity; });
     add(weights.presence, [](const PartitionTerms& p) { return p.presence; });
-    add(weights.recall, [](const PartitionTerms& p) { return p.recall; });
+    add(weights.link_consistency, [](const PartitionTerms& p) { return p.link_consistency; });
     return list[static_cast<std::size_t>(std::max_element(merit.begin(), merit.end()) - merit.begin())];
 }
 

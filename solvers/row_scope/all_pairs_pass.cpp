@@ -7,7 +7,7 @@
 #include <span>
 
 #include "solvers/numeric/inner_product.hpp"
-#include "solvers/numeric/score_panel.hpp"
+#include "solvers/numeric/pair_score_kernel.hpp"
 #include "solvers/row_scope/pass_clock.hpp"
 #include "solvers/subspace/coefficients.hpp"
 
@@ -40,11 +40,11 @@ struct AllPairsPass::Tile {
     int first_local = 0;  ///< the same, counted from this rank's first
     int width = 0;
     int groups = 0;  ///< of columns, the last filled up
-    std::span<const ColumnFit> fits;
+    std::span<const RowScopeColumn> fits;
     std::vector<std::size_t> next_working;  ///< per column: the first working row not yet passed
     Eigen::MatrixXd reconstruction;         ///< D x width
     Eigen::MatrixXd exact_duals;            ///< u, D x width
-    std::vector<float> duals;               ///< u, feature by feature in the groups of score_panel
+    std::vector<float> duals;               ///< u, feature by feature in the groups of score_pairs
     std::vector<float> errors;              ///< of a score, feature by feature
     std::vector<float> doubtful_square;     ///< per column: below, a pair is looked at in double
     std::vector<float> scores;              ///< H times panel_rows x columns
@@ -128,7 +128,7 @@ void AllPairsPass::start(const WorkingSet& working, const std::vector<double>& r
     any_violation_ = false;
 }
 
-/// The dual of the tile's column, as it is and in the groups of score_panel.
+/// The dual of the tile's column, as it is and in the groups of score_pairs.
 void AllPairsPass::set_column(Tile& tile, int column) const {
     double errors2 = 0.0;
     for (int h = 0; h < stack_.features; ++h) {
@@ -172,7 +172,7 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
     tile.doubtful_square.resize(columns);
     tile.above.resize(columns);
     for (int c = 0; c < tile.width; ++c) {
-        const ColumnFit& fit = tile.fits[static_cast<std::size_t>(c)];
+        const RowScopeColumn& fit = tile.fits[static_cast<std::size_t>(c)];
         reconstruct(stack_, fit, fit.weights.data(), tile.reconstruction.col(c).data());
         set_column(tile, c);
     }
@@ -186,7 +186,7 @@ void AllPairsPass::score(Tile& tile, int panel) const {
     for (int h = 0; h < stack_.features; ++h) {
         const auto feature = static_cast<std::size_t>(h);
         const int from = stack_.offset[feature];
-        score_panel(panels_.rows(panel, from),
+        score_pairs(panels_.rows(panel, from),
                     tile.duals.data() + static_cast<std::ptrdiff_t>(from) * tile.columns(), stack_.rows_of(h),
                     tile.groups, low_prices_.data() + feature * padded_rows_ + first,
                     tile.errors.data() + static_cast<std::ptrdiff_t>(h) * tile.columns(),
@@ -258,7 +258,7 @@ void AllPairsPass::inspect_pair(const Tile& tile, int column, int row, PaperDual
     if (norm > problem_.alpha) keep(tile, column, row, norm);
 }
 
-void AllPairsPass::look(Tile& tile, int panel, PaperDualBound& bound) {
+void AllPairsPass::scan(Tile& tile, int panel, PaperDualBound& bound) {
     const int begin = panel * panel_rows;
     find_above(tile.squares.data(), tile.width, limit2_, tile.above.data());
     for (int c = 0; c < tile.width; ++c) {
@@ -320,7 +320,7 @@ PassFindings AllPairsPass::run(const WorkingSet& working, const std::vector<doub
         check_working_pairs(tile, bound);
         for (int panel = 0; panel < panels_.count(); ++panel) {
             score(tile, panel);
-            look(tile, panel, bound);
+            scan(tile, panel, bound);
         }
         bound.end_tile();
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Scope paper's look at all N^2 pairs: a lower bound of the optimum, and the pairs that must enter the
+// Row scope's look at all N^2 pairs: a lower bound of the optimum, and the pairs that must enter the
 // working set.
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ struct PassFindings {
     std::int64_t entering_pairs = 0;         ///< all ranks
 };
 
-/// Matrix products in single precision (score_panel.hpp); pairs too close to their limit for that are looked at in
+/// Matrix products in single precision (pair_score_kernel.hpp); pairs too close to their limit for that are looked at in
 /// double, so the bound holds under rounding. Nothing of size N^2 is stored.
 ///
 /// Of the violating pairs, the `kept` worst of each row and of each column enter.
@@ -63,7 +63,7 @@ class AllPairsPass {
     void score(Tile& tile, int panel) const;
     void check_working_pairs(const Tile& tile, PaperDualBound& bound);
     void look_first(Tile& tile, int panel);
-    void look(Tile& tile, int panel, PaperDualBound& bound);
+    void scan(Tile& tile, int panel, PaperDualBound& bound);
     void inspect_pair(const Tile& tile, int column, int row, PaperDualBound& bound);
     void exact_scores(const Tile& tile, int column, int row);
     void keep(const Tile& tile, int column, int row, double norm);

@@ -24,8 +24,9 @@ enum Scalar : std::size_t { value, gradient2, distance2, scalar_count };
 }  // namespace
 
 ProximalNewton::ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                               const std::vector<ColumnFit>& fits, const std::vector<std::size_t>& offset,
-                               const std::vector<double>& linear, RowExchange& exchange)
+                               const std::vector<RowScopeColumn>& fits,
+                               const std::vector<std::size_t>& offset, const std::vector<double>& linear,
+                               RowExchange& exchange)
     : comm_(comm),
       stack_(stack),
       fits_(fits),

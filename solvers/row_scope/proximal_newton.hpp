@@ -1,5 +1,5 @@
 #pragma once
-// The proximal point method with semismooth Newton inside: what closes scope paper's gap where lambda is small and W
+// The proximal point method with semismooth Newton inside: what closes row scope's gap where lambda is small and W
 // reconstructs most of X, so that gradient steps need thousands of iterations and Newton's on a guessed support get stuck.
 
 #include <vector>
@@ -8,7 +8,7 @@
 #include "solvers/row_scope/row_exchange.hpp"
 #include "solvers/row_scope/row_prox.hpp"
 #include "solvers/row_scope/support_newton.hpp"
-#include "solvers/subspace/column_fit.hpp"
+#include "solvers/subspace/row_scope_column.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
 
 namespace coseg {
@@ -32,7 +32,7 @@ class ProximalNewton {
     /// `fits` are the columns of this rank, `offset` the place of each column's values, `linear` their X^T X; all must
     /// outlive this.
     ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                   const std::vector<ColumnFit>& fits, const std::vector<std::size_t>& offset,
+                   const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
                    const std::vector<double>& linear, RowExchange& exchange);
 
     /// Pairs by columns, H values together. `centre_product` = G centre. `prices`: of the owned rows, warm-start
@@ -64,7 +64,7 @@ class ProximalNewton {
 
     const Comm& comm_;
     const FeatureStack& stack_;
-    const std::vector<ColumnFit>& fits_;
+    const std::vector<RowScopeColumn>& fits_;
     const std::vector<std::size_t>& offset_;
     const std::vector<double>& linear_;
     RowExchange& exchange_;

@@ -1,5 +1,5 @@
 #pragma once
-// The prox of scope paper's penalties on one row of W, the squared row sums included.
+// The prox of row scope's penalties on one row of W, the squared row sums included.
 
 #include <span>
 #include <vector>

@@ -21,7 +21,7 @@ constexpr double regularization = 1e-11;
 }  // namespace
 
 SupportNewton::SupportNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                             const std::vector<ColumnFit>& fits, const std::vector<std::size_t>& offset,
+                             const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
                              RowExchange& exchange)
     : comm_(comm),
       problem_(problem),
@@ -90,7 +90,7 @@ void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weig
 Eigen::MatrixXd SupportNewton::gram_of(std::size_t c, std::size_t h,
                                        const std::vector<std::size_t>& places) const {
     const auto features = static_cast<std::size_t>(stack_.features);
-    const ColumnFit& fit = fits_[c];
+    const RowScopeColumn& fit = fits_[c];
     const auto count = static_cast<Eigen::Index>(places.size());
     const auto pair = [&](Eigen::Index k) {
         return (places[static_cast<std::size_t>(k)] - offset_[c]) / features;

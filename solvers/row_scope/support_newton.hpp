@@ -1,5 +1,5 @@
 #pragma once
-// Newton's equations on the support of W: the linear algebra of scope paper where lambda is small and the columns' Gram
+// Newton's equations on the support of W: the linear algebra of row scope where lambda is small and the columns' Gram
 // matrices are ill-conditioned, so that gradient steps alone would need thousands of iterations.
 
 #include <Eigen/Cholesky>
@@ -8,7 +8,7 @@
 
 #include "solvers/numeric/exact_sum.hpp"
 #include "solvers/row_scope/row_exchange.hpp"
-#include "solvers/subspace/column_fit.hpp"
+#include "solvers/subspace/row_scope_column.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
 
 namespace coseg {
@@ -21,7 +21,7 @@ class SupportNewton {
   public:
     /// `fits` are the columns of this rank, `offset` the place of each column's values; all must outlive this.
     SupportNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                  const std::vector<ColumnFit>& fits, const std::vector<std::size_t>& offset,
+                  const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
                   RowExchange& exchange);
 
     /// Solves (objective's Hessian + `added` times the identity) y = `right_side` on the support of `weights` >= 0.
@@ -53,7 +53,7 @@ class SupportNewton {
     const Comm& comm_;
     const SubspaceProblem& problem_;
     const FeatureStack& stack_;
-    const std::vector<ColumnFit>& fits_;
+    const std::vector<RowScopeColumn>& fits_;
     const std::vector<std::size_t>& offset_;
     RowExchange& exchange_;
     std::vector<Block> blocks_;         ///< H a column

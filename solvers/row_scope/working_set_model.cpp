@@ -15,7 +15,7 @@ enum Scalar : std::size_t { fit, distance2, curvature, penalty, scalar_count };
 
 std::vector<int> all_rows(const WorkingSet& working) {
     std::vector<int> rows;
-    for (const ColumnFit& column : working.fits)
+    for (const RowScopeColumn& column : working.fits)
         rows.insert(rows.end(), column.rows.begin(), column.rows.end());
     return rows;
 }
@@ -23,7 +23,8 @@ std::vector<int> all_rows(const WorkingSet& working) {
 /// Where each column's values begin.
 std::vector<std::size_t> value_offsets(const WorkingSet& working) {
     std::vector<std::size_t> offsets{0};
-    for (const ColumnFit& column : working.fits) offsets.push_back(offsets.back() + column.weights.size());
+    for (const RowScopeColumn& column : working.fits)
+        offsets.push_back(offsets.back() + column.weights.size());
     return offsets;
 }
 
@@ -31,7 +32,7 @@ std::vector<std::size_t> value_offsets(const WorkingSet& working) {
 
 std::int64_t WorkingSet::pair_count() const {
     std::int64_t count = 0;
-    for (const ColumnFit& column : fits) count += static_cast<std::int64_t>(column.rows.size());
+    for (const RowScopeColumn& column : fits) count += static_cast<std::int64_t>(column.rows.size());
     return count;
 }
 
@@ -47,7 +48,7 @@ WorkingSetModel::WorkingSetModel(const Comm& comm, const SubspaceProblem& proble
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
       proximal_(comm, problem, stack, working.fits, offset_, linear_, exchange_),
       sums_(0, 1.0, scalar_count) {
-    for (const ColumnFit& column : working.fits) {
+    for (const RowScopeColumn& column : working.fits) {
         linear_.insert(linear_.end(), column.linear.begin(), column.linear.end());
         forward_.insert(forward_.end(), column.weights.begin(), column.weights.end());
     }

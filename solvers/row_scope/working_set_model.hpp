@@ -1,5 +1,5 @@
 #pragma once
-// Scope paper on a working set of pairs: the model that the spectral projected gradient moves.
+// Row scope on a working set of pairs: the model that the spectral projected gradient moves.
 //
 // Deviates: from SPG on (6)-(7) with the lambda term in the smooth part, whose Lipschitz constant 2 lambda N
 // makes
@@ -14,7 +14,7 @@
 #include "solvers/row_scope/proximal_newton.hpp"
 #include "solvers/row_scope/row_exchange.hpp"
 #include "solvers/row_scope/row_prox.hpp"
-#include "solvers/subspace/column_fit.hpp"
+#include "solvers/subspace/row_scope_column.hpp"
 #include "solvers/subspace/spectral_projected_gradient.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
 
@@ -23,7 +23,7 @@ namespace coseg {
 /// The columns of this rank, each with its working set.
 struct WorkingSet {
     BlockRange columns;
-    std::vector<ColumnFit> fits;  ///< one a column
+    std::vector<RowScopeColumn> fits;  ///< one a column
 
     [[nodiscard]] std::int64_t pair_count() const;
 };

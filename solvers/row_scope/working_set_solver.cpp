@@ -5,7 +5,7 @@
 
 #include "solvers/row_scope/all_pairs_pass.hpp"
 #include "solvers/row_scope/working_set_model.hpp"
-#include "solvers/subspace/solve_journal.hpp"
+#include "solvers/subspace/solver_checkpoint.hpp"
 #include "solvers/subspace/stopping_rule.hpp"
 
 namespace coseg {
@@ -27,7 +27,7 @@ constexpr double smallest_inner_gap = 1e-16;
 /// go for ever.
 constexpr int passes_that_shrink = 6;
 
-bool is_zero(const ColumnFit& fit, std::size_t pair, std::size_t features) {
+bool is_zero(const RowScopeColumn& fit, std::size_t pair, std::size_t features) {
     const auto begin = fit.weights.begin() + static_cast<std::ptrdiff_t>(pair * features);
     return std::all_of(begin, begin + static_cast<std::ptrdiff_t>(features),
                        [](double w) { return w == 0.0; });
@@ -35,9 +35,9 @@ bool is_zero(const ColumnFit& fit, std::size_t pair, std::size_t features) {
 
 /// Adds the rows `entering` (none of them in the set) and, if asked to, drops pairs that are zero.
 void update_fit(const FeatureStack& stack, int column, const std::vector<int>& entering, bool shrink,
-                ColumnFit& fit) {
+                RowScopeColumn& fit) {
     const auto features = static_cast<std::size_t>(stack.features);
-    ColumnFit next;
+    RowScopeColumn next;
     std::size_t old = 0, added = 0;
     while (old < fit.rows.size() || added < entering.size()) {
         const bool is_old =
@@ -54,7 +54,7 @@ void update_fit(const FeatureStack& stack, int column, const std::vector<int>& e
         ++(is_old ? old : added);
     }
     if (next.rows == fit.rows) return;
-    prepare_column_fit(stack, column, next);
+    prepare_row_scope_column(stack, column, next);
     fit = std::move(next);
 }
 
@@ -69,7 +69,7 @@ void update_working_set(const FeatureStack& stack, const PassFindings& findings,
 SparseCoefficients nonzero_pairs(const FeatureStack& stack, const WorkingSet& working) {
     const auto features = static_cast<std::size_t>(stack.features);
     SparseCoefficients sparse{stack.size, working.columns, stack.features, {0}, {}, {}};
-    for (const ColumnFit& fit : working.fits) {
+    for (const RowScopeColumn& fit : working.fits) {
         for (std::size_t p = 0; p < fit.rows.size(); ++p) {
             if (is_zero(fit, p, features)) continue;
             sparse.rows.push_back(fit.rows[p]);
@@ -87,15 +87,15 @@ struct Progress {
     std::vector<double> row_sums;
     double inner_gap = 0.0;  ///< asked of the working set's problem
     bool limited = false;
-    bool stopped = false;  ///< by the journal: the iterate is kept, and another run continues
+    bool stopped = false;  ///< by the checkpoint: the iterate is kept, and another run continues
 };
 
-/// The working set as a journal keeps it; the rest of the iterate is the caller's.
+/// The working set as a checkpoint keeps it; the rest of the iterate is the caller's.
 SolveIterate iterate_of(const WorkingSet& working, const std::vector<double>& prices) {
     SolveIterate iterate;
     iterate.columns = working.columns;
     iterate.offsets = {0};
-    for (const ColumnFit& fit : working.fits) {
+    for (const RowScopeColumn& fit : working.fits) {
         iterate.rows.insert(iterate.rows.end(), fit.rows.begin(), fit.rows.end());
         iterate.weights.insert(iterate.weights.end(), fit.weights.begin(), fit.weights.end());
         iterate.offsets.push_back(static_cast<std::int64_t>(iterate.rows.size()));
@@ -113,8 +113,8 @@ void restore(const FeatureStack& stack, const SolveIterate& iterate, WorkingSet&
         working.fits[c].rows.assign(iterate.rows.begin() + begin, iterate.rows.begin() + end);
         working.fits[c].weights.assign(iterate.weights.begin() + begin * features,
                                        iterate.weights.begin() + end * features);
-        prepare_column_fit(stack, static_cast<int>(working.columns.begin) + static_cast<int>(c),
-                           working.fits[c]);
+        prepare_row_scope_column(stack, static_cast<int>(working.columns.begin) + static_cast<int>(c),
+                                 working.fits[c]);
     }
     prices = iterate.prices;
 }
@@ -137,19 +137,19 @@ void take_turn(WorkingSetModel& model, int iteration, ProximalTurns& turns) {
     }
 }
 
-/// Spectral projected gradient on the working set, with proximal points in between where it is slow, until its own gap is small enough, or a limit, or the journal stops it.
+/// Spectral projected gradient on the working set, with proximal points in between where it is slow, until its own gap is small enough, or a limit, or the checkpoint stops it.
 /// from: where an earlier run was in this very solve, if it was.
 void solve_inside(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                   WorkingSet& working, std::vector<double>& prices, StoppingRule& rule, Progress& progress,
-                  SolveResult& result, SolveJournal* journal, const SolveIterate* from) {
+                  SolveResult& result, SolverCheckpoint* checkpoint, const SolveIterate* from) {
     WorkingSetModel model(comm, problem, stack, working, prices);
     const int before = result.iterations;
     const double shortest_step = 0.5 / stack.largest_inner;
     ProximalTurns turns = from != nullptr ? from->proximal : first_turn(shortest_step, progress, rule);
     const auto keep = [&](const SpectralProgress& inner) {
-        const JournalTurn turn = journal->turn();
-        progress.stopped = turn == JournalTurn::keep_and_stop;
-        if (turn == JournalTurn::go_on) return;
+        const CheckpointAction turn = checkpoint->turn();
+        progress.stopped = turn == CheckpointAction::keep_and_stop;
+        if (turn == CheckpointAction::go_on) return;
         model.store(working);
         SolveIterate iterate = iterate_of(working, prices);
         iterate.spectral = inner.state;
@@ -159,7 +159,7 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         iterate.passes = result.passes;
         iterate.proximal = turns;
         iterate.history = result.history;
-        journal->keep_iterate(iterate);
+        checkpoint->keep_iterate(iterate);
     };
     const auto stop = [&](const SpectralProgress& inner) {
         result.iterations = before + inner.iterations;
@@ -173,7 +173,7 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
         if (progress.limited || gap <= enough * rule.scale(model.objective())) return true;
         if (inner.iterations >= turns.next) take_turn(model, inner.iterations, turns);
         // After the step, so that a run that continues from here is where this one is.
-        if (journal != nullptr) keep(inner);
+        if (checkpoint != nullptr) keep(inner);
         return progress.stopped;
     };
     if (from != nullptr)
@@ -199,7 +199,7 @@ bool record(const Comm& comm, StoppingRule& rule, const Progress& progress, cons
     return reached;
 }
 
-/// Takes up an iterate that a journal has kept. A finished one leaves nothing to do.
+/// Takes up an iterate that a checkpoint has kept. A finished one leaves nothing to do.
 PassFindings resume(const FeatureStack& stack, const SolveIterate& known, WorkingSet& working,
                     std::vector<double>& prices, StoppingRule& rule, Progress& progress,
                     SolveResult& result) {
@@ -219,10 +219,10 @@ PassFindings resume(const FeatureStack& stack, const SolveIterate& known, Workin
     return findings;
 }
 
-/// Keeps the end of the solve, unless it is the clock's, and ends the run where the journal has stopped it.
-void close_journal(SolveJournal& journal, const WorkingSet& working, const std::vector<double>& prices,
-                   const StoppingRule& rule, const Progress& progress, const SolveResult& result,
-                   bool was_finished) {
+/// Keeps the end of the solve, unless it is the clock's, and ends the run where the checkpoint has stopped it.
+void close_checkpoint(SolverCheckpoint& checkpoint, const WorkingSet& working,
+                      const std::vector<double>& prices, const StoppingRule& rule, const Progress& progress,
+                      const SolveResult& result, bool was_finished) {
     if (!progress.stopped && !was_finished && rule.limit() != StopReason::time_limit) {
         SolveIterate iterate = iterate_of(working, prices);
         iterate.lower_bound = rule.lower_bound();
@@ -233,9 +233,9 @@ void close_journal(SolveJournal& journal, const WorkingSet& working, const std::
         iterate.objective = progress.objective;
         iterate.residual = result.kkt_residual;
         iterate.reason = static_cast<int>(rule.limit());
-        journal.keep_iterate(iterate);
+        checkpoint.keep_iterate(iterate);
     }
-    journal.close(progress.stopped);
+    checkpoint.close(progress.stopped);
 }
 
 /// What the next solve on the working set is asked for, and the pairs that it is on; false if nothing closes the gap.
@@ -268,10 +268,10 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
     StoppingRule rule(comm, options, stack.squared_norm);
     SolveResult result;
     Progress progress{.objective = stack.squared_norm, .row_sums = {}, .inner_gap = 1e-2};
-    SolveJournal* journal = options.journal;
-    if (journal != nullptr) journal->open(problem, options, working.columns);
+    SolverCheckpoint* checkpoint = options.checkpoint;
+    if (checkpoint != nullptr) checkpoint->open(problem, options, working.columns);
     std::optional<SolveIterate> known =
-        journal != nullptr ? journal->find_iterate() : std::optional<SolveIterate>();
+        checkpoint != nullptr ? checkpoint->find_iterate() : std::optional<SolveIterate>();
     const bool was_finished = known && known->finished;
     PassFindings findings =
         known ? resume(stack, *known, working, prices, rule, progress, result) : pass.first(working);
@@ -281,14 +281,15 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
         const bool goes_on =
             known || prepare_solve(stack, findings, options, result.passes, rule, working, progress);
         if (!goes_on) break;
-        solve_inside(comm, problem, stack, working, prices, rule, progress, result, journal,
+        solve_inside(comm, problem, stack, working, prices, rule, progress, result, checkpoint,
                      known ? &*known : nullptr);
         known.reset();
         if (progress.stopped) break;
         findings = pass.run(working, progress.row_sums);
         reached = record(comm, rule, progress, findings, working, result);
     }
-    if (journal != nullptr) close_journal(*journal, working, prices, rule, progress, result, was_finished);
+    if (checkpoint != nullptr)
+        close_checkpoint(*checkpoint, working, prices, rule, progress, result, was_finished);
     result.pass_cost = pass.cost();
     result.coefficients = nonzero_pairs(stack, working);
     result.working_pairs = all_sum(comm, working.pair_count());

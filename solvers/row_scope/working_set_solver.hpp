@@ -1,5 +1,5 @@
 #pragma once
-// Scope paper with a sparse W: a working set of pairs that grows from violations of optimality.
+// Row scope with a sparse W: a working set of pairs that grows from violations of optimality.
 //
 // Source: working sets as in Celer (Massias, Gramfort, Salmon 2018) and ORGEN (You, Li, Robinson, Vidal
 // 2016).
@@ -11,7 +11,7 @@
 namespace coseg {
 
 /// Solve on the working set, look at all pairs once, add the worst violations, drop what stayed zero; until
-/// the certified gap is reached. Nothing of size N^2 is stored. Requires a valid problem of scope paper.
+/// the certified gap is reached. Nothing of size N^2 is stored. Requires a valid problem of row scope.
 /// Collective.
 SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options);
 

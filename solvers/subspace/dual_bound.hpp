@@ -1,5 +1,5 @@
 #pragma once
-// Lower bounds of the optimum from any W: the certificate behind every relative gap of scope paper.
+// Lower bounds of the optimum from any W: the certificate behind every relative gap of row scope.
 //
 // With z = X_h w_hj (any z will do) let u = 2 (x_hj - z), the residual's dual. For any v >= 0,
 //     sum_h ( <U_h, X_h> - ||U_h||^2 / 4 - ||v_h||^2 / (4 lambda) )  <=  optimum

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/numeric/score_panel.hpp"
+#include "solvers/numeric/pair_score_kernel.hpp"
 #include "src/base/error.hpp"
 #include "src/parallel/block_range.hpp"
 

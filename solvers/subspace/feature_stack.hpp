@@ -44,7 +44,7 @@ FeatureStack stack_features(const SubspaceProblem& problem);
 /// Column `order[i]` of the problem becomes column i; a copy of the features unless that changes nothing. Collective.
 FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order);
 
-/// The columns in single precision, in the panels of score_panel.hpp, the last filled up with zeros; once a node.
+/// The columns in single precision, in the panels of pair_score_kernel.hpp, the last filled up with zeros; once a node.
 class PanelColumns {
   public:
     /// Collective over `comm`, whose ranks all have this stack.

@@ -7,18 +7,18 @@
 
 #include "solvers/subspace/coefficients.hpp"
 #include "solvers/subspace/solve_history.hpp"
-#include "solvers/subspace/solve_journal.hpp"
+#include "solvers/subspace/solver_checkpoint.hpp"
 
 namespace coseg {
 
 struct SolveOptions {
     double gap = 1e-4;            ///< stop at this relative gap; see SolveResult::relative_gap
-    int max_iterations = 200000;  ///< of the inner method; scope mesh: per column
+    int max_iterations = 200000;  ///< of the inner method; mesh scope: per column
     double max_seconds = 3600.0;  ///< wall time
-    std::string solver = "auto";  ///< "auto", "dense" (scope paper only) or "working-set"
-    /// Scope mesh: told of this rank's columns, solved and in all, after every tile; may be empty.
+    std::string solver = "auto";  ///< "auto", "dense" (row scope only) or "working-set"
+    /// Mesh scope: told of this rank's columns, solved and in all, after every tile; may be empty.
     std::function<void(std::int64_t, std::int64_t)> progress = {};
-    SolveJournal* journal = nullptr;  ///< keeps finished tiles or the iterate; none by default
+    SolverCheckpoint* checkpoint = nullptr;  ///< keeps finished tiles or the iterate; none by default
 };
 
 /// From best to worst.
@@ -37,19 +37,19 @@ struct SolveResult {
     double objective = 0.0;          ///< at the coefficients; an upper bound of the optimum
     double objective_at_zero = 0.0;  ///< sum_h ||X_h||_F^2
     double lower_bound = 0.0;        ///< of the optimum, rounding allowed for
-    /// (objective - lower_bound) / objective for scope paper, / (objective_at_zero - objective) for scope
+    /// (objective - lower_bound) / objective for row scope, / (objective_at_zero - objective) for scope
     /// mesh; 0 where both bounds agree to the last bits.
     double relative_gap = 0.0;
     double kkt_residual = 0.0;        ///< norm of (W - prox(W - t G)) / t, relative to the size of G at W = 0
-    int iterations = 0;               ///< scope mesh: of the column that took most
+    int iterations = 0;               ///< mesh scope: of the column that took most
     int passes = 0;                   ///< over all pairs
     std::int64_t working_pairs = 0;   ///< pairs that the last working set held, all ranks
     std::int64_t nonzero_groups = 0;  ///< pairs with a value > 0, all ranks
     StopReason reason = StopReason::gap_reached;
-    /// A row a pass over all pairs (dense: a certificate), the last one as above. Scope mesh, ssc: row k is after every
-    /// column's k-th pass. Complete also where a journal resumes the solve.
+    /// A row a pass over all pairs (dense: a certificate), the last one as above. Mesh scope, ssc: row k is after every
+    /// column's k-th pass. Complete also where a checkpoint resumes the solve.
     SolveHistory history;
-    PassCost pass_cost;  ///< scope paper by working sets, and scope mesh; not the same on all ranks
+    PassCost pass_cost;  ///< row scope by working sets, and mesh scope; not the same on all ranks
 };
 
 /// "gap_reached", "residual_reached", "iteration_limit" or "time_limit".

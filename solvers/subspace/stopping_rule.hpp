@@ -8,7 +8,7 @@
 
 namespace coseg {
 
-/// Scope paper. Remembers the best lower bound; the objective is that of the last point certified.
+/// Row scope. Remembers the best lower bound; the objective is that of the last point certified.
 class StoppingRule {
   public:
     /// Starts the clock.

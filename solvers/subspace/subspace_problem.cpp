@@ -44,7 +44,7 @@ void validate_penalty(double value, const char* name) {
 
 void validate_meshes(const SubspaceProblem& problem) {
     if (static_cast<std::int64_t>(problem.mesh_of.size()) != problem.size()) {
-        throw Error(ExitCode::input, "scope mesh needs the mesh of each of the " +
+        throw Error(ExitCode::input, "mesh scope needs the mesh of each of the " +
                                          std::to_string(problem.size()) + " columns, but " +
                                          std::to_string(problem.mesh_of.size()) + " were given");
     }
@@ -67,7 +67,7 @@ void validate_meshes(const SubspaceProblem& problem) {
 
 std::int64_t allowed_pair_count(const SubspaceProblem& problem) {
     const std::int64_t n = problem.size();
-    if (problem.scope == PenaltyScope::paper) return n * (n - 1);
+    if (problem.scope == PenaltyScope::rows) return n * (n - 1);
     const int meshes = 1 + *std::max_element(problem.mesh_of.begin(), problem.mesh_of.end());
     std::vector<std::int64_t> patches(static_cast<std::size_t>(meshes), 0);
     for (const int mesh : problem.mesh_of) ++patches[static_cast<std::size_t>(mesh)];
@@ -96,7 +96,7 @@ void validate(const SubspaceProblem& problem) {
     validate_penalty(problem.alpha, "alpha");
     validate_penalty(problem.beta, "beta");
     validate_penalty(problem.lambda, "lambda");
-    if (problem.scope == PenaltyScope::mesh) validate_meshes(problem);
+    if (problem.scope == PenaltyScope::meshes) validate_meshes(problem);
 }
 
 }  // namespace coseg

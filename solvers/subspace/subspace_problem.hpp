@@ -1,17 +1,17 @@
 #pragma once
 // The multi-feature subspace clustering problem: its data, its penalties and what its input must satisfy.
 //
-// Scope paper, equations (6)-(7):
+// Row scope, equations (6)-(7):
 //   min over W_h >= 0 with zero diagonal, h = 1..H, of
 //     sum_h ( ||X_h W_h - X_h||_F^2 + lambda ||W_h^T W_h||_{1,1} ) + alpha ||W||_{2,1} + beta ||W||_{1,1}
 //   where ||W_h^T W_h||_{1,1} = ||W_h 1||^2, the squared norm of the row sums, and ||W||_{2,1} sums the norms
 //   of the H values of each pair.
-// Scope mesh replaces the lambda term by lambda sum_g s_g^2, g = (mesh of i, column j), s_g the sum over the
+// Mesh scope replaces the lambda term by lambda sum_g s_g^2, g = (mesh of i, column j), s_g the sum over the
 //   pairs (i, j) of g of the norm of their H values, and allows no pairs inside a mesh.
 //   Deviates: from equation (6), so that each patch finds a match in every other mesh; columns then separate.
 //
 // Source: Hu, Fan, Liu, "Co-Segmentation of 3D Shapes via Subspace Clustering", SGP 2012, equations (6)-(7);
-//   scope mesh is an exclusive group lasso (Zhou, Jin, Hoi 2010) over meshes.
+//   mesh scope is an exclusive group lasso (Zhou, Jin, Hoi 2010) over meshes.
 
 #include <cstdint>
 #include <string>
@@ -21,16 +21,16 @@
 
 namespace coseg {
 
-enum class PenaltyScope { paper, mesh };
+enum class PenaltyScope { rows, meshes };
 
 struct SubspaceProblem {
     FeatureMatrices features;  ///< H matrices, d_h x N, nonnegative, the same on every rank
     double alpha = 0.01;       ///< of ||W||_{2,1}; >= 0
     double beta = 0.1;         ///< of ||W||_{1,1}; >= 0
     double lambda = 1000.0;    ///< of the scope's squared sums; >= 0
-    PenaltyScope scope = PenaltyScope::paper;
-    std::vector<int> mesh_of;  ///< N meshes, >= 0; scope mesh only: no pairs inside a mesh
-    /// Scope mesh only: for each mesh, ascending, the meshes in which its patches may have matches (the rows
+    PenaltyScope scope = PenaltyScope::rows;
+    std::vector<int> mesh_of;  ///< N meshes, >= 0; mesh scope only: no pairs inside a mesh
+    /// Mesh scope only: for each mesh, ascending, the meshes in which its patches may have matches (the rows
     /// of its columns). Empty: all others.
     std::vector<std::vector<int>> allowed_meshes;
 
@@ -39,7 +39,7 @@ struct SubspaceProblem {
     [[nodiscard]] std::int64_t size() const noexcept { return features.columns(); }
 };
 
-/// Pairs (i, j), i != j, that may have a value: all in scope paper, those of allowed meshes in scope mesh.
+/// Pairs (i, j), i != j, that may have a value: all in row scope, those of allowed meshes in mesh scope.
 std::int64_t allowed_pair_count(const SubspaceProblem& problem);
 
 /// Throws Error(input), naming feature and column (both counted from 1), where the problem cannot be solved:

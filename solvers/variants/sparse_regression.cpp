@@ -7,8 +7,8 @@
 
 #include "solvers/numeric/blas.hpp"
 #include "solvers/numeric/exact_sum.hpp"
-#include "solvers/subspace/column_fit.hpp"
 #include "solvers/subspace/feature_stack.hpp"
+#include "solvers/subspace/row_scope_column.hpp"
 
 namespace coseg {
 

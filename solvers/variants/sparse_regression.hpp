@@ -11,7 +11,7 @@ enum class Sign { nonnegative, free };
 /// one feature; its other penalties are not used. The columns are independent: each rank solves its own and
 /// nothing is communicated but the sums of the result. Coordinate descent on a working set per column, grown from
 /// a pass over all pairs that also gives the lower bound: the residual's dual scaled, or for W >= 0 shifted,
-/// until it is feasible. The relative gap is to the objective, as in scope paper. Coefficients may be negative where the
+/// until it is feasible. The relative gap is to the objective, as in row scope. Coefficients may be negative where the
 /// sign is free. Requires a valid problem. Collective.
 ///
 /// Source: the paper, equation (2), after Elhamifar and Vidal 2009; coordinate descent for the lasso

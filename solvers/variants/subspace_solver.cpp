@@ -16,12 +16,12 @@ SolveResult solve_subspace(const Comm& comm, const SubspaceProblem& problem, con
             throw Error(ExitCode::usage,
                         "unknown solver '" + options.solver + "'; use auto, dense or working-set");
         }
-        if (problem.scope == PenaltyScope::mesh && options.solver == "dense") {
-            throw Error(ExitCode::usage, "the dense solver covers scope paper only; use auto or working-set");
+        if (problem.scope == PenaltyScope::meshes && options.solver == "dense") {
+            throw Error(ExitCode::usage, "the dense solver covers row scope only; use auto or working-set");
         }
     });
     use_one_blas_thread();
-    if (problem.scope == PenaltyScope::mesh) return solve_mesh_scope(comm, problem, options);
+    if (problem.scope == PenaltyScope::meshes) return solve_mesh_scope(comm, problem, options);
     if (options.solver == "dense") return solve_dense(comm, problem, options);
     return solve_working_set(comm, problem, options);
 }

@@ -76,7 +76,7 @@ SolveResult solve_independent(const Comm& comm, const SubspaceProblem& problem, 
         histories.push_back(std::move(one.history));
     }
     const auto relative_gap = [&](double objective, double lower_bound) {
-        const double scale = problem.scope == PenaltyScope::mesh
+        const double scale = problem.scope == PenaltyScope::meshes
                                  ? sum.objective_at_zero - objective
                                  : std::max(objective, 1e-6 * sum.objective_at_zero);
         const double width = std::max(objective - lower_bound, 0.0);
@@ -99,7 +99,7 @@ SolveResult solve_l1(const Comm& comm, const SubspaceProblem& problem, Sign sign
 }
 
 SolveResult solve_ssqp(const Comm& comm, SubspaceProblem problem, const SolveOptions& options) {
-    problem.scope = PenaltyScope::paper;
+    problem.scope = PenaltyScope::rows;
     problem.alpha = problem.beta = 0.0;
     return solve_subspace(comm, problem, options);
 }

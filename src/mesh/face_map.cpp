@@ -52,7 +52,7 @@ int largest_label(std::vector<std::pair<int, double>>& shares) {
 
 int end_of_chain(const FaceMap& map, int face) {
     for (int step = 0; step <= map.input_faces; ++step) {
-        const int next = map.stand_in[at(face)];
+        const int next = map.label_donor[at(face)];
         if (next < 0 || next >= map.input_faces) break;
         if (next == face) return face;
         face = next;
@@ -67,7 +67,7 @@ std::vector<int> carry_labels_back(const FaceMap& map, const std::vector<int>& w
                                    const Eigen::VectorXd& working_area) {
     if (working_labels.size() != map.input_face.size() ||
         at(static_cast<int>(working_area.size())) != map.input_face.size() ||
-        map.stand_in.size() != at(map.input_faces) ||
+        map.label_donor.size() != at(map.input_faces) ||
         (!map.nearest_working.empty() && map.nearest_working.size() != at(map.input_faces))) {
         throw Error(ExitCode::internal, "labels, areas and face map have different numbers of working faces");
     }

@@ -10,9 +10,9 @@ namespace coseg {
 /// working faces (none if it is degenerate or vanished in remeshing, several if it is a polygon or was refined).
 struct FaceMap {
     int input_faces = 0;
-    std::vector<int> input_face;  ///< per working face: the input face it came from
-    std::vector<int> stand_in;    ///< per input face: itself if it has a working face, else the input face
-                                  ///< whose label it takes
+    std::vector<int> input_face;   ///< per working face: the input face it came from
+    std::vector<int> label_donor;  ///< per input face: itself if it has a working face, else the input face
+                                   ///< whose label it takes
     std::vector<int>
         nearest_working;  ///< empty, or per input face: the working face whose label it takes if it has
                           ///< none of its own; -1: that of its stand-in

@@ -7,8 +7,8 @@
 #include "src/mesh/polygon_triangulation.hpp"
 #include "src/mesh/vertex_welding.hpp"
 #include "src/repair/degenerate_faces.hpp"
+#include "src/repair/label_donor_faces.hpp"
 #include "src/repair/manifold_cut.hpp"
-#include "src/repair/stand_in_faces.hpp"
 
 namespace coseg {
 
@@ -143,7 +143,7 @@ RepairedMesh repair(const PolygonMesh& input, const std::string& name) {
 
     RepairedMesh result;
     result.map.input_faces = input.face_count();
-    result.map.stand_in = stand_in_faces(input, vertex_of, has_working_face);
+    result.map.label_donor = label_donor_faces(input, vertex_of, has_working_face);
     const ManifoldCut cut = cut_to_manifold(working.triangles, input.vertices);
     result.mesh = to_mesh(input, cut);
     result.map.input_face = std::move(working.input_face);

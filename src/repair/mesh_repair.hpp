@@ -18,7 +18,7 @@ struct RepairedMesh {
 };
 
 /// Triangulates polygons (polygon_triangulation.hpp), welds repeated vertices (vertex_welding.hpp), takes out
-/// faces without area (degenerate_faces.hpp; they get a stand-in, stand_in_faces.hpp), cuts non-manifold
+/// faces without area (degenerate_faces.hpp; they get a stand-in, label_donor_faces.hpp), cuts non-manifold
 /// edges and vertices and orients (manifold_cut.hpp), and leaves out vertices without a face. A closed,
 /// outward, manifold triangle mesh comes back as it is: same faces, same vertices, no warning. Working faces
 /// keep the order of their input faces, except that pieces of a face split to close the gap of a degenerate

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solvers/affinity/patch_links.hpp"
+#include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
@@ -45,8 +45,8 @@ struct ToyCollection {
     std::vector<int> mesh_of;
     std::vector<int> truth;
     std::vector<double> area;
-    std::vector<PatchRelation> neighbors;
-    std::vector<OverlapRelation> overlaps;
+    std::vector<GlobalPatchNeighbors> neighbors;
+    std::vector<GlobalPatchOverlap> overlaps;
     SparseCoefficients coefficients;  ///< the columns of this rank
 };
 /// Relations are those of the meshes m with m % ranks = rank.

@@ -86,7 +86,7 @@ namespace {
 double scope_penalty(const SubspaceProblem& problem, const std::vector<Eigen::MatrixXd>& weights,
                      const Eigen::MatrixXd& pair_norms) {
     double squares = 0.0;
-    if (problem.scope == PenaltyScope::paper) {
+    if (problem.scope == PenaltyScope::rows) {
         for (const Eigen::MatrixXd& w : weights) squares += w.rowwise().sum().squaredNorm();
         return squares;
     }

@@ -115,18 +115,18 @@ TEST(AffinityTerms, OverlapIsTheIntersectionOverUnion) {
 
 TEST(AffinityTerms, RelationsComeInOneOrderWhoeverOwnsThem) {
     const Comm comm(MPI_COMM_WORLD);
-    std::vector<PatchRelation> mine;
+    std::vector<GlobalPatchNeighbors> mine;
     for (int m = 9; m >= 0; --m) {
         if (m % comm.size() == comm.rank()) mine.push_back({2 * m + 1, 2 * m, 0.5 * m, 0.1});
     }
-    const std::vector<PatchRelation> all = gather_relations(comm, mine, 20);
+    const std::vector<GlobalPatchNeighbors> all = gather_patch_pairs(comm, mine, 20);
     ASSERT_EQ(all.size(), 10U);
     for (int m = 0; m < 10; ++m) {
         EXPECT_EQ(all[static_cast<std::size_t>(m)].patch_a, 2 * m);
         EXPECT_EQ(all[static_cast<std::size_t>(m)].patch_b, 2 * m + 1);
         EXPECT_EQ(all[static_cast<std::size_t>(m)].boundary_length, 0.5 * m);
     }
-    EXPECT_THROW(gather_relations(comm, mine, 19), AgreedError);
+    EXPECT_THROW(gather_patch_pairs(comm, mine, 19), AgreedError);
 }
 
 TEST(PetscHandle, RefusesWhatDoesNotFitAPetscInt) {

@@ -20,14 +20,14 @@ WorkingSet random_working_set(const Comm& comm, const FeatureStack& stack, doubl
     working.columns = block_range(stack.size, comm.size(), comm.rank(), coefficient_tile);
     for (auto j = static_cast<int>(working.columns.begin); j < working.columns.end; ++j) {
         SeededStream random(hash_words({seed, static_cast<std::uint64_t>(j)}));
-        ColumnFit fit;
+        RowScopeColumn fit;
         for (int i = 0; i < stack.size; ++i) {
             if (i == j || random.uniform() > 0.2) continue;
             fit.rows.push_back(i);
             for (int h = 0; h < stack.features; ++h)
                 fit.weights.push_back(random.uniform() < 0.5 ? size * random.uniform() : 0.0);
         }
-        prepare_column_fit(stack, j, fit);
+        prepare_row_scope_column(stack, j, fit);
         working.fits.push_back(fit);
     }
     return working;
@@ -77,7 +77,7 @@ TEST(WorkingSetModel, ObjectiveIsTheDefinitionAndTheGradientItsDerivative) {
     std::vector<double> prices(static_cast<std::size_t>(problem.size()) * 2, 0.0);
     const auto definition = [&](const WorkingSet& at) {
         SparseCoefficients all{problem.size(), at.columns, 2, {0}, {}, {}};
-        for (const ColumnFit& fit : at.fits) {
+        for (const RowScopeColumn& fit : at.fits) {
             all.rows.insert(all.rows.end(), fit.rows.begin(), fit.rows.end());
             all.values.insert(all.values.end(), fit.weights.begin(), fit.weights.end());
             all.offsets.push_back(static_cast<std::int64_t>(all.rows.size()));
@@ -89,7 +89,7 @@ TEST(WorkingSetModel, ObjectiveIsTheDefinitionAndTheGradientItsDerivative) {
                 1e-12 * objective);
 
     problem.alpha = problem.beta = problem.lambda = 0.0;
-    for (ColumnFit& fit : working.fits) {
+    for (RowScopeColumn& fit : working.fits) {
         for (double& weight : fit.weights) weight += 1.0;  // far from 0: nothing is clipped
     }
     WorkingSetModel model(self, problem, stack, working, prices);

@@ -67,7 +67,7 @@ TEST(SubspaceSolver, PaperScopeDense) {
 TEST(SubspaceSolver, MeshScope) {
     for (const double lambda : {0.1, 100.0}) {
         SubspaceProblem problem = random_subspace_problem(3, 12, 70, 10, 22);
-        problem.scope = PenaltyScope::mesh;
+        problem.scope = PenaltyScope::meshes;
         problem.lambda = lambda;
         const SolveResult result = expect_same_on_any_ranks(problem, precise("auto", 1e-6));
         EXPECT_EQ(result.reason, StopReason::gap_reached);
@@ -78,7 +78,7 @@ TEST(SubspaceSolver, MeshScope) {
 
 TEST(SubspaceSolver, MeshScopeHasNoPairsInsideAMeshInWhateverOrderMeshesCome) {
     SubspaceProblem problem = random_subspace_problem(2, 10, 40, 8, 23);
-    problem.scope = PenaltyScope::mesh;
+    problem.scope = PenaltyScope::meshes;
     problem.lambda = 2.0;
     for (std::size_t j = 0; j < problem.mesh_of.size(); ++j)
         problem.mesh_of[j] = static_cast<int>((j * 7) % 5) * 3;
@@ -95,7 +95,7 @@ TEST(SubspaceSolver, MeshScopeHasNoPairsInsideAMeshInWhateverOrderMeshesCome) {
 
 TEST(SubspaceSolver, MeshScopeKeepsToTheAllowedMeshes) {
     SubspaceProblem problem = random_subspace_problem(2, 10, 60, 10, 24);
-    problem.scope = PenaltyScope::mesh;
+    problem.scope = PenaltyScope::meshes;
     problem.allowed_meshes = {{1, 2}, {0, 5}, {3}, {2, 4}, {}, {0, 1}};
     const SolveResult result = expect_same_on_any_ranks(problem, precise("auto", 1e-6));
     EXPECT_EQ(result.reason, StopReason::gap_reached);
@@ -112,9 +112,9 @@ TEST(SubspaceSolver, MeshScopeKeepsToTheAllowedMeshes) {
 class UglyProblem : public testing::TestWithParam<const char*> {
   protected:
     static void expect_certified(SubspaceProblem problem) {
-        for (const PenaltyScope scope : {PenaltyScope::paper, PenaltyScope::mesh}) {
+        for (const PenaltyScope scope : {PenaltyScope::rows, PenaltyScope::meshes}) {
             problem.scope = scope;
-            if (scope == PenaltyScope::mesh && std::string(GetParam()) == "dense") continue;
+            if (scope == PenaltyScope::meshes && std::string(GetParam()) == "dense") continue;
             const SolveResult result = expect_same_on_any_ranks(problem, precise(GetParam(), 1e-6));
             EXPECT_TRUE(result.reason == StopReason::gap_reached ||
                         result.reason == StopReason::residual_reached);
@@ -163,7 +163,7 @@ TEST_P(UglyProblem, OnePenaltyAtATime) {
 TEST_P(UglyProblem, OptimumIsZeroWhereBetaExceedsEveryInnerProduct) {
     SubspaceProblem problem = random_subspace_problem(2, 8, 40, 8, 39);
     problem.beta = 3.0;  // unit columns: 2 x_i.x_j <= 2
-    problem.scope = PenaltyScope::paper;
+    problem.scope = PenaltyScope::rows;
     const SolveResult result = expect_same_on_any_ranks(problem, precise(GetParam()));
     EXPECT_EQ(result.nonzero_groups, 0);
     EXPECT_EQ(result.objective, result.objective_at_zero);
@@ -256,7 +256,7 @@ TEST(SubspaceSolver, BadInputIsRefusedOnAllRanks) {
     bad.alpha = -1.0;
     EXPECT_NE(refusal(bad, {}).find("alpha"), std::string::npos);
     bad = good;
-    bad.scope = PenaltyScope::mesh;
+    bad.scope = PenaltyScope::meshes;
     bad.mesh_of.pop_back();
     EXPECT_NE(refusal(bad, {}).find("mesh of each"), std::string::npos);
     EXPECT_NE(refusal(good, {.solver = "fast"}).find("unknown solver 'fast'"), std::string::npos);

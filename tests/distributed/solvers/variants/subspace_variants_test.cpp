@@ -65,7 +65,7 @@ TEST(SubspaceVariants, NamesComeBack) {
 }
 
 TEST(SubspaceVariants, ASingleFeatureIsTheProblemOfThatFeature) {
-    for (const PenaltyScope scope : {PenaltyScope::paper, PenaltyScope::mesh}) {
+    for (const PenaltyScope scope : {PenaltyScope::rows, PenaltyScope::meshes}) {
         SubspaceProblem problem = sample();
         problem.scope = scope;
         const SolveResult one = solve_both_ways(problem, SubspaceVariant::single_feature, 1);
@@ -93,7 +93,7 @@ TEST(SubspaceVariants, IndependentFeaturesAreTheProblemWithoutAlphaWhereItSepara
 
 TEST(SubspaceVariants, IndependentFeaturesOfScopeMeshAddUp) {
     SubspaceProblem problem = sample();
-    problem.scope = PenaltyScope::mesh;
+    problem.scope = PenaltyScope::meshes;
     const SolveResult apart = solve_both_ways(problem, SubspaceVariant::independent);
     double objective = 0.0, bound = 0.0;
     for (const Eigen::MatrixXd& feature : problem.features.matrices()) {
@@ -106,7 +106,7 @@ TEST(SubspaceVariants, IndependentFeaturesOfScopeMeshAddUp) {
 }
 
 TEST(SubspaceVariants, ConcatenatedFeaturesAreOneLongFeature) {
-    for (const PenaltyScope scope : {PenaltyScope::paper, PenaltyScope::mesh}) {
+    for (const PenaltyScope scope : {PenaltyScope::rows, PenaltyScope::meshes}) {
         SubspaceProblem problem = sample();
         problem.scope = scope;
         const SolveResult one = solve_both_ways(problem, SubspaceVariant::concatenated);
@@ -117,10 +117,10 @@ TEST(SubspaceVariants, ConcatenatedFeaturesAreOneLongFeature) {
 
 TEST(SubspaceVariants, SsqpHasTheLambdaTermAlone) {
     SubspaceProblem problem = sample();
-    problem.scope = PenaltyScope::mesh;  // not kept
+    problem.scope = PenaltyScope::meshes;  // not kept
     const SolveResult one = solve_both_ways(problem, SubspaceVariant::ssqp);
     SubspaceProblem stack = of_features(problem, {stacked(problem)});
-    stack.scope = PenaltyScope::paper;
+    stack.scope = PenaltyScope::rows;
     stack.alpha = stack.beta = 0.0;
     const double objective = subspace_objective(stack, dense_weights(one.coefficients));
     EXPECT_NEAR(one.objective, objective, 1e-12 * one.objective_at_zero);

@@ -306,7 +306,7 @@ void must_not_break(const std::string& name, const std::string& content) {
         const PolygonMesh mesh = parse_mesh(content, name);
         EXPECT_GT(mesh.face_count(), 0);
         const RepairedMesh repaired = repair(mesh, name);
-        EXPECT_EQ(repaired.map.stand_in.size(), static_cast<std::size_t>(mesh.face_count()));
+        EXPECT_EQ(repaired.map.label_donor.size(), static_cast<std::size_t>(mesh.face_count()));
     });
 }
 

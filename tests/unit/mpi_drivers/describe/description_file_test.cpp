@@ -7,7 +7,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/mesh_files/off_writer.hpp"
 #include "mpi_drivers/describe/kept_description.hpp"
-#include "mpi_drivers/optimise/tile_journal.hpp"
+#include "mpi_drivers/optimise/solver_checkpoint_files.hpp"
 #include "src/families/shape_families.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -45,7 +45,7 @@ void expect_same(const MeshDescription& a, const MeshDescription& b) {
     EXPECT_EQ(a.overlong_area, b.overlong_area);
     EXPECT_EQ(a.map.input_faces, b.map.input_faces);
     EXPECT_EQ(a.map.input_face, b.map.input_face);
-    EXPECT_EQ(a.map.stand_in, b.map.stand_in);
+    EXPECT_EQ(a.map.label_donor, b.map.label_donor);
     EXPECT_EQ(a.geometry.area, b.geometry.area);
     EXPECT_EQ(a.geometry.normal, b.geometry.normal);
     EXPECT_EQ(a.geometry.centroid, b.geometry.centroid);

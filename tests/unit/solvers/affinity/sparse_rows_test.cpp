@@ -54,17 +54,17 @@ TEST(MainComponents, AreLargeEnoughAndNoMoreThanParts) {
 
 TEST(AttachSetAside, SpreadsInRoundsAndFallsBack) {
     // 0 -3- 2 -1- 1, 2 -1- 3 -1- 4; 5 alone. 0 has label 7, 1 has label 8.
-    const SparseRows bonds = rows_from_entries(6, {0, 6},
-                                               {{0, 2, 3.0},
-                                                {2, 0, 3.0},
-                                                {2, 1, 1.0},
-                                                {1, 2, 1.0},
-                                                {2, 3, 1.0},
-                                                {3, 2, 1.0},
-                                                {3, 4, 1.0},
-                                                {4, 3, 1.0}});
+    const SparseRows within_mesh_affinity = rows_from_entries(6, {0, 6},
+                                                              {{0, 2, 3.0},
+                                                               {2, 0, 3.0},
+                                                               {2, 1, 1.0},
+                                                               {1, 2, 1.0},
+                                                               {2, 3, 1.0},
+                                                               {3, 2, 1.0},
+                                                               {3, 4, 1.0},
+                                                               {4, 3, 1.0}});
     std::vector<int> labels = {7, 8, -1, -1, -1, -1};
-    EXPECT_EQ(attach_set_aside(labels, bonds, 9), 1);
+    EXPECT_EQ(attach_set_aside(labels, within_mesh_affinity, 9), 1);
     EXPECT_EQ(labels, (std::vector<int>{7, 8, 7, 7, 7, 9}));
 }
 

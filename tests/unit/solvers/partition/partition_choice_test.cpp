@@ -8,7 +8,8 @@ namespace coseg {
 namespace {
 
 TEST(PartitionChoice, ConcavityIsWeightedByLengthAndIgnoresTheInside) {
-    const std::vector<PatchRelation> neighbors = {{0, 1, 3.0, 0.9}, {1, 2, 1.0, 0.1}, {2, 3, 5.0, 0.7}};
+    const std::vector<GlobalPatchNeighbors> neighbors = {
+        {0, 1, 3.0, 0.9}, {1, 2, 1.0, 0.1}, {2, 3, 5.0, 0.7}};
     EXPECT_DOUBLE_EQ(boundary_concavity(neighbors, {0, 1, 2, 2}), (3.0 * 0.9 + 0.1) / 4.0);
     EXPECT_EQ(boundary_concavity(neighbors, {0, 0, 0, 0}), 0.0);
 }
@@ -39,16 +40,16 @@ TEST(PartitionChoice, ScoresDoNotDependOnTheUnitOfATerm) {
     std::vector<PartitionTerms> terms = {terms_with(0.2, 1.5), terms_with(0.9, 1.0), terms_with(0.4, 1.2)};
     for (std::size_t k = 0; k < 3; ++k) {
         const double share = 0.1 + 0.2 * static_cast<double>(k * k);
-        terms[k].explained = {{.common = share, .own = 0.5 + 0.5 * share}};
+        terms[k].explained = {{.pooled = share, .per_mesh = 0.5 + 0.5 * share}};
     }
     std::vector<PartitionTerms> scaled = terms;
     for (PartitionTerms& t : scaled) {
         t.overlap = 1e3 * t.overlap + 7.0;
         t.crease *= 1e-6;
-        t.explained[0].common *= 1e-3;
-        t.explained[0].own -= 0.25;
+        t.explained[0].pooled *= 1e-3;
+        t.explained[0].per_mesh -= 0.25;
     }
-    const std::vector<ExplainedSpread> weights = {{.common = 1.5, .own = 0.5}};
+    const std::vector<BetweenPartVariance> weights = {{.pooled = 1.5, .per_mesh = 0.5}};
     const ChoiceWeights bare = {.least_crease = 0.0, .least_overlap = 0.0, .least_explained = 0.0};
     const std::vector<double> a = partition_scores(terms, bare, weights);
     const std::vector<double> b = partition_scores(scaled, bare, weights);
@@ -61,10 +62,10 @@ TEST(PartitionChoice, ScoresDoNotDependOnTheUnitOfATerm) {
 // far ahead in the latter, in what deviations usually are it is not.
 TEST(PartitionChoice, TheOddOneOutIsNotMagnified) {
     std::vector<PartitionTerms> terms(10, terms_with(-0.01, 1.0));
-    for (PartitionTerms& t : terms) t.explained = {{.common = 0.0, .own = 0.3}};
+    for (PartitionTerms& t : terms) t.explained = {{.pooled = 0.0, .per_mesh = 0.3}};
     terms[4].crease = -2.0;
-    terms[4].explained[0].own = 0.31;
-    const std::vector<ExplainedSpread> weights = {{.common = 0.0, .own = 4.0}};
+    terms[4].explained[0].per_mesh = 0.31;
+    const std::vector<BetweenPartVariance> weights = {{.pooled = 0.0, .per_mesh = 4.0}};
     const std::vector<double> magnified =
         partition_scores(terms, {.least_crease = 0.0, .least_explained = 0.0}, weights);
     const std::vector<double> scores = partition_scores(terms, {}, weights);
@@ -113,14 +114,15 @@ TEST(PartitionChoice, PresenceCountsMeshesWithAQuarterOfThePartsMean) {
 }
 
 TEST(PartitionChoice, CreaseIsLengthAndFlatnessOfBoundariesAMesh) {
-    const std::vector<PatchRelation> neighbors = {{0, 1, 3.0, 0.5}, {1, 2, 1.0, 1.0}, {2, 3, 5.0, 0.0}};
+    const std::vector<GlobalPatchNeighbors> neighbors = {
+        {0, 1, 3.0, 0.5}, {1, 2, 1.0, 1.0}, {2, 3, 5.0, 0.0}};
     EXPECT_DOUBLE_EQ(boundary_crease(neighbors, {0, 1, 2, 2}, 2), -3.0 * 0.25 / 2.0);
     EXPECT_DOUBLE_EQ(boundary_crease(neighbors, {0, 0, 0, 1}, 1), -5.0);
     EXPECT_EQ(boundary_crease(neighbors, {0, 0, 0, 0}, 1), 0.0);
 }
 
 TEST(PartitionChoice, OverlapAgreementIsTheShareOfTheOwnPartByArea) {
-    const std::vector<OverlapRelation> overlaps = {{0, 2, 0.6}, {0, 3, 0.2}, {1, 3, 0.8}};
+    const std::vector<GlobalPatchOverlap> overlaps = {{0, 2, 0.6}, {0, 3, 0.2}, {1, 3, 0.8}};
     // 0: .6 of .8 with its own part; 1: none; 2: all; 3: .2 of 1; 4 overlaps nothing
     EXPECT_NEAR(overlap_agreement(overlaps, {0, 1, 0, 2, 2}, {1.0, 2.0, 1.0, 2.0, 50.0}),
                 (0.75 + 0.0 + 1.0 + 0.0) / 6.0, 1e-15);
@@ -132,14 +134,15 @@ TEST(PartitionChoice, PartsThatAreAlikeInsideExplainAllAndPartsWithOneMeanNothin
     histograms << 1, 1, 0, 0, 0, 0, 1, 1;
     const std::vector<int> one_mesh(4, 0);
     const std::vector<double> area = {1.0, 2.0, 3.0, 4.0};
-    const ExplainedSpread all = explained_spread(histograms, {0, 0, 1, 1}, 2, area, one_mesh);
-    EXPECT_NEAR(all.common, 1.0, 1e-15);
-    EXPECT_NEAR(all.own, 1.0, 1e-15);
-    const ExplainedSpread nothing = explained_spread(histograms, {0, 1, 0, 1}, 2, {1, 1, 1, 1}, one_mesh);
-    EXPECT_NEAR(nothing.common, 0.0, 1e-15);
-    EXPECT_NEAR(nothing.own, 0.0, 1e-15);
-    EXPECT_EQ(explained_spread(Eigen::MatrixXf::Ones(2, 4), {0, 1, 0, 1}, 2, area, one_mesh),
-              ExplainedSpread{});
+    const BetweenPartVariance all = between_part_variance(histograms, {0, 0, 1, 1}, 2, area, one_mesh);
+    EXPECT_NEAR(all.pooled, 1.0, 1e-15);
+    EXPECT_NEAR(all.per_mesh, 1.0, 1e-15);
+    const BetweenPartVariance nothing =
+        between_part_variance(histograms, {0, 1, 0, 1}, 2, {1, 1, 1, 1}, one_mesh);
+    EXPECT_NEAR(nothing.pooled, 0.0, 1e-15);
+    EXPECT_NEAR(nothing.per_mesh, 0.0, 1e-15);
+    EXPECT_EQ(between_part_variance(Eigen::MatrixXf::Ones(2, 4), {0, 1, 0, 1}, 2, area, one_mesh),
+              BetweenPartVariance{});
 }
 
 TEST(PartitionChoice, InOneMeshTheExplainedSpreadIsThatOfTheAnalysisOfVariance) {
@@ -152,33 +155,33 @@ TEST(PartitionChoice, InOneMeshTheExplainedSpreadIsThatOfTheAnalysisOfVariance) 
     double spread = 0.0;
     for (Eigen::Index i = 0; i < 5; ++i) spread += (values(0, i) - mean) * (values(0, i) - mean);
     const double between = 2.0 * (first - mean) * (first - mean) + 3.0 * (second - mean) * (second - mean);
-    const ExplainedSpread explained =
-        explained_spread(values, labels, 2, std::vector<double>(5, 1.0), std::vector<int>(5, 0));
-    EXPECT_NEAR(explained.common, between / spread, 1e-14);
-    EXPECT_NEAR(explained.own, between / spread, 1e-14);
+    const BetweenPartVariance explained =
+        between_part_variance(values, labels, 2, std::vector<double>(5, 1.0), std::vector<int>(5, 0));
+    EXPECT_NEAR(explained.pooled, between / spread, 1e-14);
+    EXPECT_NEAR(explained.per_mesh, between / spread, 1e-14);
 }
 
 /// Two meshes of two patches: what tells the patches apart, and what the meshes.
-ExplainedSpread of_two_meshes(float first_a, float first_b, float second_a, float second_b,
-                              const std::vector<int>& labels) {
+BetweenPartVariance of_two_meshes(float first_a, float first_b, float second_a, float second_b,
+                                  const std::vector<int>& labels) {
     Eigen::MatrixXf values(1, 4);
     values << first_a, first_b, second_a, second_b;
-    return explained_spread(values, labels, 2, std::vector<double>(4, 1.0), {0, 0, 1, 1});
+    return between_part_variance(values, labels, 2, std::vector<double>(4, 1.0), {0, 0, 1, 1});
 }
 
 TEST(PartitionChoice, WhatTellsMeshesApartIsNotExplained) {
-    const ExplainedSpread by_mesh = of_two_meshes(0, 1, 10, 11, {0, 0, 1, 1});
-    EXPECT_NEAR(by_mesh.common, 0.0, 1e-15) << "a partition by style";
-    EXPECT_NEAR(by_mesh.own, 0.0, 1e-15);
-    const ExplainedSpread by_part = of_two_meshes(0, 1, 10, 11, {0, 1, 0, 1});
-    EXPECT_NEAR(by_part.common, 1.0, 1e-15);
-    EXPECT_NEAR(by_part.own, 1.0, 1e-15);
+    const BetweenPartVariance by_mesh = of_two_meshes(0, 1, 10, 11, {0, 0, 1, 1});
+    EXPECT_NEAR(by_mesh.pooled, 0.0, 1e-15) << "a partition by style";
+    EXPECT_NEAR(by_mesh.per_mesh, 0.0, 1e-15);
+    const BetweenPartVariance by_part = of_two_meshes(0, 1, 10, 11, {0, 1, 0, 1});
+    EXPECT_NEAR(by_part.pooled, 1.0, 1e-15);
+    EXPECT_NEAR(by_part.per_mesh, 1.0, 1e-15);
 }
 
 TEST(PartitionChoice, PartsThatDifferTheOtherWayInAnotherMeshAreExplainedByItsOwnMeansOnly) {
-    const ExplainedSpread opposed = of_two_meshes(0, 1, 1, 0, {0, 1, 0, 1});
-    EXPECT_NEAR(opposed.common, 0.0, 1e-15);
-    EXPECT_NEAR(opposed.own, 1.0, 1e-15);
+    const BetweenPartVariance opposed = of_two_meshes(0, 1, 1, 0, {0, 1, 0, 1});
+    EXPECT_NEAR(opposed.pooled, 0.0, 1e-15);
+    EXPECT_NEAR(opposed.per_mesh, 1.0, 1e-15);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ FaceMap identity_map(int faces) {
     map.input_faces = faces;
     map.input_face.resize(static_cast<std::size_t>(faces));
     std::iota(map.input_face.begin(), map.input_face.end(), 0);
-    map.stand_in = map.input_face;
+    map.label_donor = map.input_face;
     return map;
 }
 

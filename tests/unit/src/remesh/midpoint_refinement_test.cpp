@@ -17,7 +17,7 @@ FaceMap identity_map(int faces) {
     map.input_faces = faces;
     map.input_face.resize(static_cast<std::size_t>(faces));
     std::iota(map.input_face.begin(), map.input_face.end(), 0);
-    map.stand_in = map.input_face;
+    map.label_donor = map.input_face;
     return map;
 }
 
@@ -99,7 +99,7 @@ TEST(MidpointRefinement, LabelsComeBackThroughRepairAndRefinement) {
     EXPECT_EQ(back[0], 0);
     EXPECT_EQ(back[1], 1);
     EXPECT_EQ(back[3], 1);
-    EXPECT_EQ(back[2], back[static_cast<std::size_t>(repaired.map.stand_in[2])]);
+    EXPECT_EQ(back[2], back[static_cast<std::size_t>(repaired.map.label_donor[2])]);
 }
 
 }  // namespace

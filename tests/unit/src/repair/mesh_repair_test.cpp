@@ -32,16 +32,16 @@ void expect_sound(const RepairedMesh& repaired, const PolygonMesh& input) {
     EXPECT_EQ(manifold_defect(repaired.mesh), "");
     ASSERT_EQ(repaired.map.input_faces, input.face_count());
     ASSERT_EQ(static_cast<int>(repaired.map.input_face.size()), repaired.mesh.face_count());
-    ASSERT_EQ(static_cast<int>(repaired.map.stand_in.size()), input.face_count());
+    ASSERT_EQ(static_cast<int>(repaired.map.label_donor.size()), input.face_count());
     std::vector<char> has_working(static_cast<std::size_t>(input.face_count()), 0);
     for (const int f : repaired.map.input_face) {
         ASSERT_TRUE(0 <= f && f < input.face_count());
         has_working[static_cast<std::size_t>(f)] = 1;
     }
     for (int f = 0; f < input.face_count(); ++f) {
-        const int stand_in = repaired.map.stand_in[static_cast<std::size_t>(f)];
-        EXPECT_TRUE(has_working[static_cast<std::size_t>(stand_in)] != 0) << f;
-        EXPECT_EQ(stand_in == f, has_working[static_cast<std::size_t>(f)] != 0) << f;
+        const int label_donor = repaired.map.label_donor[static_cast<std::size_t>(f)];
+        EXPECT_TRUE(has_working[static_cast<std::size_t>(label_donor)] != 0) << f;
+        EXPECT_EQ(label_donor == f, has_working[static_cast<std::size_t>(f)] != 0) << f;
     }
     EXPECT_GT(face_geometry(repaired.mesh).area.minCoeff(), 0.0);
 }
@@ -112,7 +112,7 @@ TEST(MeshRepair, GoodMeshesStayAsTheyAre) {
         std::vector<int> identity(static_cast<std::size_t>(mesh.face_count()));
         std::iota(identity.begin(), identity.end(), 0);
         EXPECT_EQ(repaired.map.input_face, identity);
-        EXPECT_EQ(repaired.map.stand_in, identity);
+        EXPECT_EQ(repaired.map.label_donor, identity);
     }
 }
 
@@ -327,8 +327,8 @@ TEST(MeshRepair, DegenerateFacesGetTheNeighbourThatSharesMost) {
     input.offsets.insert(input.offsets.end(), {27, 30, 31});
     const RepairedMesh repaired = repaired_soundly(input);
     EXPECT_EQ(repaired.mesh.face_count(), 8);
-    EXPECT_EQ(repaired.map.stand_in[8], 0);
-    EXPECT_EQ(repaired.map.stand_in[10], 6);
+    EXPECT_EQ(repaired.map.label_donor[8], 0);
+    EXPECT_EQ(repaired.map.label_donor[10], 6);
     EXPECT_TRUE(warns_of(repaired, "3 faces without area"));
 }
 
@@ -339,11 +339,11 @@ TEST(MeshRepair, LonelyDegenerateFaceTakesTheNearest) {
     input.corners.insert(input.corners.end(), {v, v, v});
     input.offsets.push_back(static_cast<int>(input.corners.size()));
     const RepairedMesh repaired = repaired_soundly(input);
-    const int stand_in = repaired.map.stand_in.back();
+    const int label_donor = repaired.map.label_donor.back();
     const FaceGeometry geometry = face_geometry(repaired.mesh);
     const Vector3d target = input.vertices.back();
     for (int f = 0; f < 80; ++f) {
-        EXPECT_LE((geometry.centroid.col(stand_in) - target).norm(),
+        EXPECT_LE((geometry.centroid.col(label_donor) - target).norm(),
                   (geometry.centroid.col(f) - target).norm() + 1e-12);
     }
 }
@@ -441,7 +441,7 @@ TEST(FaceMap, LargestAreaWinsTiesGoToTheLowestLabel) {
     FaceMap map;
     map.input_faces = 4;
     map.input_face = {0, 0, 0, 1, 1, 0};
-    map.stand_in = {0, 1, 3, 1};
+    map.label_donor = {0, 1, 3, 1};
     Eigen::VectorXd area(6);
     area << 1, 2, 1.5, 1, 1, 1;
     EXPECT_EQ(carry_labels_back(map, {7, 4, 7, 5, 3, 9}, area), (std::vector<int>{7, 3, 3, 3}));
@@ -451,10 +451,10 @@ TEST(FaceMap, ImpossibleMapsAreRefused) {
     FaceMap map;
     map.input_faces = 3;
     map.input_face = {0};
-    map.stand_in = {0, 2, 1};
+    map.label_donor = {0, 2, 1};
     EXPECT_EQ(test::error_of([&] { carry_labels_back(map, {1}, Eigen::VectorXd::Ones(1)); }).code,
               ExitCode::internal);
-    map.stand_in = {0, 0, 1};
+    map.label_donor = {0, 0, 1};
     EXPECT_EQ(carry_labels_back(map, {6}, Eigen::VectorXd::Ones(1)), (std::vector<int>{6, 6, 6}));
     EXPECT_EQ(test::error_of([&] {
                   carry_labels_back(map, {1, 2}, Eigen::VectorXd::Ones(1));

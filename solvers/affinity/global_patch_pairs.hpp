@@ -1,0 +1,35 @@
+#pragma once
+// What ties patches of one mesh together, with global patch numbers: meshes in the collection's order, within
+// a mesh its over-segmentations, within one its patches.
+
+#include <vector>
+
+#include "src/parallel/comm.hpp"
+
+namespace coseg {
+
+/// Two patches of the same over-segmentation with a common boundary.
+struct GlobalPatchNeighbors {
+    int patch_a = 0;
+    int patch_b = 0;
+    double boundary_length = 0.0;  ///< of a mesh of unit area
+    double concavity = 0.0;        ///< mc in [0, 1]: mean normalised minimum curvature along the boundary
+};
+
+/// Two patches of one mesh in different over-segmentations that share faces.
+struct GlobalPatchOverlap {
+    int patch_a = 0;
+    int patch_b = 0;
+    double intersection_over_union = 0.0;  ///< of their areas, in (0, 1]
+};
+
+/// All relations on all ranks, patch_a < patch_b, in ascending order whichever rank they came from.
+/// Collective. Throws AgreedError(internal) where a patch number is not in 0 .. patches - 1 or a pair is
+/// given twice.
+std::vector<GlobalPatchNeighbors> gather_patch_pairs(const Comm& comm,
+                                                     const std::vector<GlobalPatchNeighbors>& local,
+                                                     int patches);
+std::vector<GlobalPatchOverlap> gather_patch_pairs(const Comm& comm,
+                                                   const std::vector<GlobalPatchOverlap>& local, int patches);
+
+}  // namespace coseg

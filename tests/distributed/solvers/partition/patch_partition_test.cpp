@@ -1,0 +1,406 @@
+#include "solvers/partition/patch_partition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "solvers/affinity/affinity.hpp"
+#include "solvers/partition/best_matches.hpp"
+#include "solvers/petsc/petsc_handle.hpp"
+#include "solvers/petsc/petsc_session.hpp"
+#include "solvers/subspace/feature_strength.hpp"
+#include "src/base/seeded_random.hpp"
+#include "tests/support/graphs.hpp"
+
+namespace coseg {
+namespace {
+
+using testing_graphs::same_partition;
+using testing_graphs::toy_collection;
+using testing_graphs::ToyCollection;
+
+/// A descriptor that tells the segments apart, with some noise.
+Eigen::MatrixXf histograms_of(const ToyCollection& toy) {
+    const int parts = 1 + *std::max_element(toy.truth.begin(), toy.truth.end());
+    Eigen::MatrixXf histograms(parts, toy.patches);
+    for (int i = 0; i < toy.patches; ++i) {
+        for (int p = 0; p < parts; ++p) {
+            const double noise =
+                0.3 * uniform_of(hash_words({static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(p)}));
+            histograms(p, i) =
+                static_cast<float>(toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 + noise : noise);
+        }
+    }
+    return histograms;
+}
+
+CutResult cut(const Comm& comm, const ToyCollection& toy, const CutOptions& options) {
+    // What the descriptors of a run weigh together.
+    const std::vector<ChoiceDescriptor> descriptors = {
+        {histograms_of(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
+    return partition_patches(
+        comm, {toy.coefficients, toy.neighbors, toy.overlaps, toy.mesh_of, toy.area, descriptors}, options);
+}
+
+CutOptions pooled(int parts) {
+    CutOptions options;
+    options.parts = parts;
+    options.starts = pooled_starts(parts);
+    const std::vector<CutStart> more = articulated_starts(parts);
+    options.starts.insert(options.starts.end(), more.begin(), more.end());
+    options.spectral.mesh_balance = 0.3;
+    return options;
+}
+
+CutOptions paper(int parts) {
+    CutOptions options;
+    options.parts = parts;
+    options.form = AffinityForm::paper;
+    options.drop_below = 1e-6;
+    options.spectral.offset = 0.5;
+    options.starts = single_start(parts, 0.0);
+    return options;
+}
+
+void expect_same_terms(const PartitionTerms& a, const PartitionTerms& b) {
+    EXPECT_EQ(a.presence, b.presence);
+    EXPECT_EQ(a.link_consistency, b.link_consistency);
+    EXPECT_EQ(a.crease, b.crease);
+    EXPECT_EQ(a.explained, b.explained);
+}
+
+void expect_same_result(const CutResult& a, const CutResult& b) {
+    EXPECT_EQ(a.part_of_patch, b.part_of_patch);
+    EXPECT_EQ(a.part_share, b.part_share);
+    EXPECT_EQ(a.chosen, b.chosen);
+    ASSERT_EQ(a.starts.size(), b.starts.size());
+    for (std::size_t k = 0; k < a.starts.size(); ++k) {
+        EXPECT_EQ(a.starts[k].score, b.starts[k].score);
+        expect_same_terms(a.starts[k].terms, b.starts[k].terms);
+        EXPECT_EQ(a.starts[k].eigenvalues, b.starts[k].eigenvalues);
+        EXPECT_EQ(a.starts[k].start.clusters, b.starts[k].start.clusters);
+    }
+}
+
+class CoSegmentationCut : public testing::TestWithParam<int> {};
+
+TEST_P(CoSegmentationCut, FindsTheSegmentsFromSeveralStarts) {
+    const Comm comm(MPI_COMM_WORLD);
+    const int parts = GetParam();
+    const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
+    const CutResult result = cut(comm, toy, pooled(parts));
+    EXPECT_TRUE(same_partition(result.part_of_patch, toy.truth));
+    double shares = 0.0;
+    for (std::size_t k = 0; k < result.part_share.size(); ++k) {
+        shares += result.part_share[k];
+        EXPECT_EQ(result.meshes_with_part[k], 6);
+        EXPECT_LE(result.part_share[k], k > 0 ? result.part_share[k - 1] : 1.0);
+    }
+    EXPECT_NEAR(shares, 1.0, 1e-12);
+}
+
+TEST_P(CoSegmentationCut, HasTheSameBytesOnAnyNumberOfRanks) {
+    const Comm comm(MPI_COMM_WORLD);
+    const Comm self(MPI_COMM_SELF);
+    const int parts = GetParam();
+    const ToyCollection shared = toy_collection(comm, 5, parts, 5, 3);
+    const ToyCollection alone = toy_collection(self, 5, parts, 5, 3);
+    expect_same_result(cut(comm, shared, pooled(parts)), cut(self, alone, pooled(parts)));
+    expect_same_result(cut(comm, shared, paper(parts)), cut(self, alone, paper(parts)));
+    CutOptions without_adjacency = pooled(parts);
+    without_adjacency.starts = articulated_starts(parts);
+    expect_same_result(cut(comm, shared, without_adjacency), cut(self, alone, without_adjacency));
+}
+
+TEST_P(CoSegmentationCut, AllRanksTogetherFindWhatOneFindsAlone) {
+    const Comm comm(MPI_COMM_WORLD);
+    const int parts = GetParam();
+    const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
+    CutOptions options = pooled(parts);
+    options.starts = {{{2.0, 2.0}, 2 * parts, MergeRule::normalized_cut},
+                      {{2.0, 2.0}, 2 * parts, MergeRule::linkage}};
+    options.starts.push_back(single_start(parts, 5.0)[0]);
+    const CutResult dealt = cut(comm, toy, options);
+    options.one_rank_entries = 0;
+    const CutResult together = cut(comm, toy, options);
+    expect_same_result(together, dealt);
+}
+
+TEST_P(CoSegmentationCut, TakesACutWithoutAdjacencyWhereAdjacencyCutsShapesApart) {
+    const Comm comm(MPI_COMM_WORLD);
+    const int parts = GetParam();
+    ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
+    for (GlobalPatchNeighbors& pair : toy.neighbors)
+        pair.concavity = 0.0;  // nothing tells where segments meet
+    CutOptions options;
+    options.parts = parts;
+    options.starts = single_start(parts, 1000.0);
+    EXPECT_FALSE(same_partition(cut(comm, toy, options).part_of_patch, toy.truth)) << "shapes, not parts";
+    const std::vector<CutStart> more = articulated_starts(parts);
+    options.starts.insert(options.starts.end(), more.begin(), more.end());
+    const CutResult result = cut(comm, toy, options);
+    EXPECT_GE(result.chosen, 1);
+    EXPECT_TRUE(same_partition(result.part_of_patch, toy.truth));
+    EXPECT_EQ(result.starts[static_cast<std::size_t>(result.chosen)].terms.presence, 1.0);
+}
+
+TEST_P(CoSegmentationCut, RecallIsTheShareOfLinksThatStayAtHome) {
+    const Comm comm(MPI_COMM_WORLD);
+    const int parts = GetParam();
+    const ToyCollection toy = toy_collection(comm, 5, parts, 5, 3);
+    const SparseRows links = normalized_links(comm, toy.coefficients);
+    EXPECT_GT(link_consistency(comm, links, toy.truth, parts, toy.area), 0.95);
+    std::vector<int> turned = toy.truth;  // every other mesh has its parts numbered otherwise
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+        if (toy.mesh_of[i] % 2 == 1) turned[i] = (turned[i] + 1) % parts;
+    }
+    EXPECT_LT(link_consistency(comm, links, turned, parts, toy.area), 0.8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Parts, CoSegmentationCut, testing::Values(2, 3, 5));
+
+/// Two parts of eight patches in each of five meshes, one above the other. Patches are linked to all of the other meshes:
+/// those of mesh 0 more to the wrong part, the others to their own.
+struct MisleadingLinks {
+    static constexpr int meshes = 5;
+    static constexpr int patches = meshes * 16;
+    std::vector<int> mesh_of;
+    std::vector<int> truth;
+    std::vector<double> area = std::vector<double>(patches, 1.0 / 16.0);
+    Eigen::Matrix3Xd positions = Eigen::Matrix3Xd::Zero(3, patches);
+    SparseCoefficients coefficients;
+
+    explicit MisleadingLinks(const Comm& comm) {
+        for (int i = 0; i < patches; ++i) {
+            mesh_of.push_back(i / 16);
+            truth.push_back(i % 16 / 8);
+            const auto random = [&](std::uint64_t k) {
+                return uniform_of(hash_words({static_cast<std::uint64_t>(i), k})) - 0.5;
+            };
+            positions.col(i) << random(1), random(2), (truth.back() == 0 ? -1.0 : 1.0) + random(3);
+        }
+        coefficients.size = patches;
+        coefficients.features = 1;
+        coefficients.columns = block_range(patches, comm.size(), comm.rank(), coefficient_tile);
+        coefficients.offsets = {0};
+        for (auto j = static_cast<int>(coefficients.columns.begin); j < coefficients.columns.end; ++j) {
+            for (int i = 0; i < patches; ++i) add(i, j);
+            coefficients.offsets.push_back(static_cast<std::int64_t>(coefficients.rows.size()));
+        }
+    }
+
+    void add(int row, int column) {
+        const auto i = static_cast<std::size_t>(row);
+        const auto j = static_cast<std::size_t>(column);
+        if (mesh_of[i] == mesh_of[j]) return;
+        const bool misled = mesh_of[i] == 0 || mesh_of[j] == 0;
+        coefficients.rows.push_back(row);
+        coefficients.values.push_back(truth[i] == truth[j] ? (misled ? 0.4 : 1.0) : (misled ? 0.6 : 0.1));
+    }
+
+    [[nodiscard]] CutInput input(const std::vector<GlobalPatchNeighbors>& neighbors,
+                                 const std::vector<GlobalPatchOverlap>& overlaps) const {
+        return {coefficients, neighbors, overlaps, mesh_of, area, {}, &positions};
+    }
+};
+
+TEST(CoSegmentationCutByPlace, PlacesSetRightWhatLinksAloneMislead) {
+    const Comm comm(MPI_COMM_WORLD);
+    const MisleadingLinks toy(comm);
+    CutOptions options;
+    options.starts = single_start(2, 0.0);
+    const CutResult misled = partition_patches(comm, toy.input({}, {}), options);
+    std::vector<int> swapped = toy.truth;
+    for (std::size_t i = 0; i < 16; ++i) swapped[i] = 1 - swapped[i];
+    EXPECT_TRUE(same_partition(misled.part_of_patch, swapped));
+    EXPECT_TRUE(misled.frame.correlation.isZero()) << "nothing asked for it";
+    options.starts[0].graph.placed = true;
+    const CutResult placed = partition_patches(comm, toy.input({}, {}), options);
+    EXPECT_TRUE(same_partition(placed.part_of_patch, toy.truth));
+    EXPECT_GT(placed.frame.correlation[2], 0.3);
+    options.one_rank_entries = 0;
+    expect_same_result(partition_patches(comm, toy.input({}, {}), options), placed);
+    const Comm self(MPI_COMM_SELF);
+    const MisleadingLinks alone(self);
+    expect_same_result(partition_patches(self, alone.input({}, {}), options), placed);
+}
+
+TEST(CoSegmentationCutByPlace, WithoutPlacesIsAnInternalError) {
+    const Comm comm(MPI_COMM_WORLD);
+    const ToyCollection toy = toy_collection(comm, 2, 2, 3, 1);
+    CutOptions options;
+    options.starts = pooled_starts(2, true);
+    try {
+        cut(comm, toy, options);
+        FAIL() << "no throw";
+    } catch (const AgreedError& error) {
+        EXPECT_EQ(error.code(), ExitCode::internal);
+    }
+}
+
+TEST(CoSegmentationCutEdges, OnePartNeedsNoCut) {
+    const Comm comm(MPI_COMM_WORLD);
+    const ToyCollection toy = toy_collection(comm, 2, 2, 3, 1);
+    CutOptions options = pooled(1);
+    options.starts = single_start(1, 5.0);
+    const CutResult result = cut(comm, toy, options);
+    EXPECT_EQ(result.part_of_patch, std::vector<int>(static_cast<std::size_t>(toy.patches), 0));
+    EXPECT_NEAR(result.part_share[0], 1.0, 1e-12);
+}
+
+TEST(CoSegmentationCutEdges, MorePartsThanPatchesIsAUsageError) {
+    const Comm comm(MPI_COMM_WORLD);
+    const ToyCollection toy = toy_collection(comm, 2, 2, 3, 1);
+    try {
+        cut(comm, toy, pooled(toy.patches + 1));
+        FAIL() << "no throw";
+    } catch (const AgreedError& error) {
+        EXPECT_EQ(error.code(), ExitCode::usage);
+        EXPECT_NE(std::string(error.what()).find("there are 24 patches"), std::string::npos) << error.what();
+    }
+}
+
+TEST(CoSegmentationCutEdges, ASingleMeshIsCutByItsAdjacencyAlone) {
+    const Comm comm(MPI_COMM_WORLD);
+    const ToyCollection toy = toy_collection(comm, 1, 3, 8, 1);
+    EXPECT_TRUE(toy.coefficients.rows.empty());
+    EXPECT_TRUE(same_partition(cut(comm, toy, pooled(3)).part_of_patch, toy.truth));
+}
+
+TEST(CoSegmentationCutEdges, WithoutAnyLinkThereIsNothingToCut) {
+    const Comm comm(MPI_COMM_WORLD);
+    const ToyCollection toy = toy_collection(comm, 1, 3, 8, 1);
+    try {
+        cut(comm, toy, paper(3));
+        FAIL() << "no throw";
+    } catch (const AgreedError& error) {
+        EXPECT_EQ(error.code(), ExitCode::input);
+    }
+}
+
+TEST(CoSegmentationCutEdges, PatchesWithoutMatchesFollowTheirNeighbours) {
+    const Comm comm(MPI_COMM_WORLD);
+    ToyCollection toy = toy_collection(comm, 6, 3, 6, 5);
+    // The coefficients of every ninth patch vanish, as column and as row.
+    SparseCoefficients thinned = toy.coefficients;
+    thinned.rows.clear();
+    thinned.values.clear();
+    thinned.offsets.assign(1, 0);
+    for (std::size_t c = 0; c + 1 < toy.coefficients.offsets.size(); ++c) {
+        const auto column = static_cast<int>(toy.coefficients.columns.begin) + static_cast<int>(c);
+        for (auto k = static_cast<std::size_t>(toy.coefficients.offsets[c]);
+             k < static_cast<std::size_t>(toy.coefficients.offsets[c + 1]); ++k) {
+            if (column % 9 == 4 || toy.coefficients.rows[k] % 9 == 4) continue;
+            thinned.rows.push_back(toy.coefficients.rows[k]);
+            thinned.values.push_back(toy.coefficients.values[k]);
+        }
+        thinned.offsets.push_back(static_cast<std::int64_t>(thinned.rows.size()));
+    }
+    toy.coefficients = thinned;
+    CutOptions options = paper(3);
+    options.spectral.offset = 0.0;
+    const CutResult result = cut(comm, toy, options);
+    EXPECT_EQ(result.starts[0].set_aside, 24);
+    EXPECT_EQ(result.starts[0].unreached, 0);
+    EXPECT_TRUE(same_partition(result.part_of_patch, toy.truth));
+}
+
+TEST(CoSegmentationCutEdges, ThePapersTextIgnoresAdjacencyAndOverlap) {
+    const Comm comm(MPI_COMM_WORLD);
+    ToyCollection toy = toy_collection(comm, 6, 3, 6, 77);
+    const CutResult with = cut(comm, toy, paper(3));
+    for (GlobalPatchNeighbors& pair : toy.neighbors) pair.boundary_length *= 1.0 + pair.patch_a % 3;
+    for (GlobalPatchOverlap& pair : toy.overlaps) pair.intersection_over_union *= 0.5;
+    const CutResult changed = cut(comm, toy, paper(3));
+    EXPECT_EQ(with.starts[0].eigenvalues, changed.starts[0].eigenvalues);
+    EXPECT_EQ(with.part_of_patch, changed.part_of_patch);
+}
+
+TEST(FeatureStrength, CountsPairsAndSharesByDefinition) {
+    const Comm comm(MPI_COMM_WORLD);
+    SparseCoefficients w;
+    w.size = 4;
+    w.columns = block_range(4, comm.size(), comm.rank(), coefficient_tile);
+    w.features = 2;
+    w.offsets.assign(1, 0);
+    if (comm.is_root()) {  // parts {0, 1} and {2, 3}; w_01 = (1, 3), w_23 = (2, 0), w_03 = (0, 2)
+        w.offsets = {0, 0, 1, 1, 3};
+        w.rows = {0, 0, 2};
+        w.values = {1.0, 3.0, 0.0, 2.0, 2.0, 0.0};
+    }
+    const FeatureStrength s = feature_strength(comm, w, {0, 0, 1, 1}, 2);
+    EXPECT_EQ(s.pairs_by_features, (std::vector<std::int64_t>{0, 2, 1}));
+    EXPECT_EQ(s.of_part[0], (std::vector<double>{0.25, 0.75}));
+    EXPECT_EQ(s.of_part[1], (std::vector<double>{1.0, 0.0}));
+    EXPECT_EQ(s.overall, (std::vector<double>{0.375, 0.625}));
+    EXPECT_EQ(s.inside, (std::vector<double>{1.0, 0.5}));
+    const double total = std::sqrt(10.0) + 2.0 + 2.0;  // norms of the pairs
+    EXPECT_DOUBLE_EQ(s.blocks[0][0], std::sqrt(10.0) / total);
+    EXPECT_DOUBLE_EQ(s.blocks[0][1], 2.0 / total);
+    EXPECT_EQ(s.blocks[1][0], 0.0);
+    EXPECT_DOUBLE_EQ(s.blocks[1][1], 2.0 / total);
+}
+
+TEST(FeatureStrength, HasTheSameBitsOnAnyNumberOfRanks) {
+    const Comm comm(MPI_COMM_WORLD);
+    const Comm self(MPI_COMM_SELF);
+    std::vector<int> parts;
+    for (int i = 0; i < 150; ++i) parts.push_back(i % 3);
+    const auto shared =
+        feature_strength(comm, testing_graphs::random_coefficients(comm, 150, 5, 8, 4), parts, 3);
+    const auto alone =
+        feature_strength(self, testing_graphs::random_coefficients(self, 150, 5, 8, 4), parts, 3);
+    EXPECT_EQ(shared.of_part, alone.of_part);
+    EXPECT_EQ(shared.overall, alone.overall);
+    EXPECT_EQ(shared.inside, alone.inside);
+    EXPECT_EQ(shared.blocks, alone.blocks);
+    EXPECT_EQ(shared.pairs_by_features, alone.pairs_by_features);
+}
+
+TEST(BestMatches, AreTheBestOfEachOtherMeshAndTheSameOnAnyNumberOfRanks) {
+    const Comm comm(MPI_COMM_WORLD);
+    const Comm self(MPI_COMM_SELF);
+    constexpr int patches = 90;
+    std::vector<Eigen::MatrixXd> features(2, Eigen::MatrixXd(7, patches));
+    SeededStream random(6);
+    for (Eigen::MatrixXd& x : features) {
+        for (Eigen::Index k = 0; k < x.size(); ++k)
+            x.data()[k] = random.uniform() < 0.5 ? 0.0 : random.uniform();
+    }
+    features[1].rightCols(20) *= 0.0;
+    features[0].rightCols(20) *= 0.0;  // the last mesh resembles nothing
+    std::vector<int> mesh_of;
+    for (int i = 0; i < patches; ++i) mesh_of.push_back(i < 15 ? 0 : i < 70 ? 1 : 2);
+    const SparseCoefficients alone = best_matches(self, features, mesh_of);
+    const Eigen::MatrixXd similarity =
+        features[0].transpose() * features[0] + features[1].transpose() * features[1];
+    for (int j = 0; j < patches; ++j) {
+        const auto begin = static_cast<std::size_t>(alone.offsets[static_cast<std::size_t>(j)]);
+        ASSERT_EQ(alone.offsets[static_cast<std::size_t>(j) + 1] - alone.offsets[static_cast<std::size_t>(j)],
+                  j < 70 ? 1 : 0);
+        if (j >= 70) continue;
+        const auto others = j < 15 ? similarity.col(j).segment(15, 55) : similarity.col(j).segment(0, 15);
+        EXPECT_NEAR(alone.values[begin], others.maxCoeff(), 1e-14);
+        EXPECT_NEAR(similarity(alone.rows[begin], j), others.maxCoeff(), 1e-14);
+    }
+    const SparseCoefficients mine = best_matches(comm, features, mesh_of);
+    EXPECT_EQ(all_gather(comm, std::span<const int>(mine.rows)), alone.rows);
+    EXPECT_EQ(all_gather(comm, std::span<const double>(mine.values)), alone.values);
+}
+
+TEST(PetscSession, ReportsOptionsThatNobodyAskedFor) {
+    const Comm comm(MPI_COMM_WORLD);
+    check(PetscOptionsSetValue(nullptr, "-eps_ncw", "90"), "PetscOptionsSetValue");
+    check(PetscOptionsSetValue(nullptr, "-eps_ncv", "90"), "PetscOptionsSetValue");
+    EXPECT_EQ(unused_petsc_options(), std::vector<std::string>{"-eps_ncw 90"}) << "before a run";
+    cut(comm, toy_collection(comm, 6, 3, 6, 77), pooled(3));
+    EXPECT_EQ(unused_petsc_options(), std::vector<std::string>{"-eps_ncw 90"})
+        << "on ranks with and without a solve";
+    check(PetscOptionsClearValue(nullptr, "-eps_ncw"), "PetscOptionsClearValue");
+    check(PetscOptionsClearValue(nullptr, "-eps_ncv"), "PetscOptionsClearValue");
+}
+
+}  // namespace
+}  // namespace coseg

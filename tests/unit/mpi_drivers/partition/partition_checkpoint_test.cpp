@@ -1,0 +1,72 @@
+#include "mpi_drivers/partition/partition_checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace coseg {
+namespace {
+
+TEST(KeptCut, ReturnsWhatWasWritten) {
+    const test::TemporaryFolder folder;
+    CutResult cut;
+    cut.part_of_patch = {0, 2, 1, 1};
+    cut.part_share = {0.5, 0.3, 0.2};
+    cut.meshes_with_part = {2, 2, 1};
+    cut.starts.resize(2);
+    cut.starts[0].start = {{1.0, 2.0, true}, 5, MergeRule::linkage};
+    cut.starts[0].terms = {.crease = -0.1,
+                           .overlap = 1.0 / 3.0,
+                           .explained = {{0.25, 0.5}, {0.125, 0.75}},
+                           .concavity = 0.6,
+                           .presence = 0.75,
+                           .link_consistency = 0.8};
+    cut.starts[1].terms.explained = {{1.0 / 7.0, 0.5}};
+    cut.starts[0].score = -1.5;
+    cut.starts[0].eigenvalues = {1.0, 0.5};
+    cut.starts[1].parts_found = 3;
+    cut.starts[1].set_aside = 4;
+    cut.starts[1].unreached = 1;
+    cut.starts[1].eigenvalues = {0.99};
+    cut.chosen = 1;
+    cut.frame = {{0.1, 0.2, 0.3}, Eigen::Matrix3d::Random(), {0.0, 1.0 / 3.0, 0.9}};
+    write_cut(folder.path("cut.h5"), cut);
+    const CutResult read = read_cut(folder.path("cut.h5"));
+    EXPECT_EQ(read.part_of_patch, cut.part_of_patch);
+    EXPECT_EQ(read.part_share, cut.part_share);
+    EXPECT_EQ(read.meshes_with_part, cut.meshes_with_part);
+    EXPECT_EQ(read.chosen, cut.chosen);
+    EXPECT_EQ(read.frame.mean, cut.frame.mean);
+    EXPECT_EQ(read.frame.directions, cut.frame.directions);
+    EXPECT_EQ(read.frame.correlation, cut.frame.correlation);
+    ASSERT_EQ(read.starts.size(), cut.starts.size());
+    for (std::size_t k = 0; k < cut.starts.size(); ++k) {
+        const StartOutcome& a = read.starts[k];
+        const StartOutcome& b = cut.starts[k];
+        EXPECT_EQ(a.start.graph, b.start.graph);
+        EXPECT_EQ(a.start.clusters, b.start.clusters);
+        EXPECT_EQ(a.start.merging, b.start.merging);
+        EXPECT_EQ(a.terms.concavity, b.terms.concavity);
+        EXPECT_EQ(a.terms.crease, b.terms.crease);
+        EXPECT_EQ(a.terms.explained, b.terms.explained);
+        EXPECT_EQ(a.terms.overlap, b.terms.overlap);
+        EXPECT_EQ(a.terms.link_consistency, b.terms.link_consistency);
+        EXPECT_EQ(a.terms.presence, b.terms.presence);
+        EXPECT_EQ(a.score, b.score);
+        EXPECT_EQ(a.parts_found, b.parts_found);
+        EXPECT_EQ(a.set_aside, b.set_aside);
+        EXPECT_EQ(a.unreached, b.unreached);
+        EXPECT_EQ(a.eigenvalues, b.eigenvalues);
+    }
+}
+
+TEST(KeptCut, OptionsWithoutEffectAreLeftOut) {
+    const std::string text =
+        cut_option_text({{"parts", "3"}, {"out", "here"}, {"alpha", "0.1"}}, {"-eps_ncv", "80"});
+    EXPECT_EQ(text, "parts=3\nalpha=0.1\n-eps_ncv\n80\n");
+    EXPECT_EQ(text, cut_option_text({{"parts", "3"}, {"out", "there"}, {"quiet", "true"}, {"alpha", "0.1"}},
+                                    {"-eps_ncv", "80"}));
+}
+
+}  // namespace
+}  // namespace coseg
