@@ -8,6 +8,7 @@
 #include "io/mesh_files/mesh_check.hpp"
 #include "io/mesh_files/polygon_importer.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -47,12 +48,10 @@ bool has_area(const PolygonMesh& mesh) {
     if (!(extent > 0.0)) return false;
     double sum = 0.0;
     for (int f = 0; f < mesh.face_count(); ++f) {
-        const int begin = mesh.offsets[static_cast<std::size_t>(f)];
-        const int end = mesh.offsets[static_cast<std::size_t>(f) + 1];
+        const int begin = mesh.offsets[at(f)];
+        const int end = mesh.offsets[at(f) + 1];
         const auto corner = [&](int k) {
-            return Eigen::Vector3d(
-                (mesh.vertices[static_cast<std::size_t>(mesh.corners[static_cast<std::size_t>(k)])] - low) /
-                extent);
+            return Eigen::Vector3d((mesh.vertices[at(mesh.corners[at(k)])] - low) / extent);
         };
         for (int k = begin + 1; k + 1 < end; ++k) {
             const Eigen::Vector3d u = corner(k) - corner(begin);

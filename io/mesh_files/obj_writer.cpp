@@ -5,6 +5,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/pictures/part_colors.hpp"
 
 namespace coseg {
@@ -20,7 +21,7 @@ std::string numbers(const char* keyword, double a, double b, double c) {
 std::string face_line(const PolygonMesh& mesh, std::size_t face) {
     std::string line = "f";
     for (int k = mesh.offsets[face]; k < mesh.offsets[face + 1]; ++k)
-        line += " " + std::to_string(mesh.corners[static_cast<std::size_t>(k)] + 1);
+        line += " " + std::to_string(mesh.corners[at(k)] + 1);
     return line + "\n";
 }
 

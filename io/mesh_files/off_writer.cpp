@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "io/files/atomic_file.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -34,8 +35,7 @@ void write_off(const std::string& path, const PolygonMesh& mesh) {
         const int begin = mesh.offsets[f];
         const int end = mesh.offsets[f + 1];
         append(text, end - begin, end > begin ? ' ' : '\n');
-        for (int k = begin; k < end; ++k)
-            append(text, mesh.corners[static_cast<std::size_t>(k)], k + 1 < end ? ' ' : '\n');
+        for (int k = begin; k < end; ++k) append(text, mesh.corners[at(k)], k + 1 < end ? ' ' : '\n');
     }
     write_file(path, text);
 }

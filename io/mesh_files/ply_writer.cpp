@@ -6,6 +6,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/byte_cursor.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/pictures/part_colors.hpp"
 
 namespace coseg {
@@ -50,7 +51,7 @@ void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const s
         else
             append_little_endian(bytes, static_cast<std::uint8_t>(size));
         for (int k = mesh.offsets[f]; k < mesh.offsets[f + 1]; ++k) {
-            append_little_endian(bytes, static_cast<std::int32_t>(mesh.corners[static_cast<std::size_t>(k)]));
+            append_little_endian(bytes, static_cast<std::int32_t>(mesh.corners[at(k)]));
         }
         for (const std::uint8_t channel : part_color(labels[f])) append_little_endian(bytes, channel);
     }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -114,7 +115,7 @@ PolygonMesh with_left_out_faces(PolygonMesh mesh, const std::vector<LeftOutFace>
     for (const LeftOutFace& face : left_out) {
         if (face.points.empty() || !number.empty()) continue;
         for (int v = 0; v < mesh.vertex_count(); ++v) {
-            const Eigen::Vector3d& p = mesh.vertices[static_cast<std::size_t>(v)];
+            const Eigen::Vector3d& p = mesh.vertices[at(v)];
             number.try_emplace({p.x(), p.y(), p.z()}, v);
         }
     }
@@ -130,8 +131,8 @@ PolygonMesh with_left_out_faces(PolygonMesh mesh, const std::vector<LeftOutFace>
             whole.offsets.push_back(static_cast<int>(whole.corners.size()));
         }
         if (f == mesh.face_count()) break;
-        const auto begin = mesh.corners.begin() + mesh.offsets[static_cast<std::size_t>(f)];
-        const auto end = mesh.corners.begin() + mesh.offsets[static_cast<std::size_t>(f) + 1];
+        const auto begin = mesh.corners.begin() + mesh.offsets[at(f)];
+        const auto end = mesh.corners.begin() + mesh.offsets[at(f) + 1];
         whole.corners.insert(whole.corners.end(), begin, end);
         whole.offsets.push_back(static_cast<int>(whole.corners.size()));
     }

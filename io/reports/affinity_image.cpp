@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/pictures/part_colors.hpp"
 
 namespace coseg {
@@ -54,10 +55,9 @@ Image affinity_image(const std::vector<std::string>& rows, const std::vector<int
     const int width = bins * scale;
     Image image(origin + width + margin, origin + width + margin, white);
     for (int y = 0; y < bins; ++y) {
-        const std::string& row = rows[static_cast<std::size_t>(y)];
+        const std::string& row = rows[at(y)];
         for (int x = 0; x < bins; ++x) {
-            fill_rectangle(image, origin + x * scale, origin + y * scale, scale, scale,
-                           shade_of(row[static_cast<std::size_t>(x)]));
+            fill_rectangle(image, origin + x * scale, origin + y * scale, scale, scale, shade_of(row[at(x)]));
         }
     }
     mark_parts(image, part_ends, scale, origin, width);

@@ -15,6 +15,7 @@
 #include "solvers/petsc/petsc_session.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -155,7 +156,7 @@ nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveResult
                                const CutResult& result, const ClusterSettings& settings) {
     auto json = nlohmann::ordered_json::parse(certificate_json(problem, solution));
     std::vector<std::int64_t> sizes(static_cast<std::size_t>(settings.parts), 0);
-    for (const int part : result.part_of_patch) ++sizes[static_cast<std::size_t>(part)];
+    for (const int part : result.part_of_patch) ++sizes[at(part)];
     json.update({{"variant", settings.variant},
                  {"scope", problem.scope == PenaltyScope::meshes ? "mesh" : "paper"},
                  {"parts", settings.parts},

@@ -8,6 +8,7 @@
 
 #include "mpi_drivers/describe/patch_gather.hpp"
 #include "solvers/kmeans/shape_words.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 #include "src/histograms/feature_range.hpp"
 #include "src/histograms/histogram.hpp"
@@ -180,7 +181,7 @@ PatchFeatures patch_features(const Comm& comm, Collection& collection, const Run
     PatchFeatures features;
     std::vector<Eigen::Index> rows;
     for (int h = 0; h < feature_total; ++h) {
-        if (!(options.feature_weights[static_cast<std::size_t>(h)] > 0.0)) continue;
+        if (!(options.feature_weights[at(h)] > 0.0)) continue;
         features.feature_of.push_back(h);
         const int sets = static_cast<Feature>(h) == Feature::shape_context ? options.word_sets : 1;
         rows.push_back(static_cast<Eigen::Index>(sets) * options.bins);
@@ -188,7 +189,7 @@ PatchFeatures patch_features(const Comm& comm, Collection& collection, const Run
     features.histograms = FeatureMatrices(comm, rows, collection.numbering.patch_count());
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const auto feature = static_cast<Feature>(features.feature_of[k]);
-        const double weight = options.feature_weights[static_cast<std::size_t>(features.feature_of[k])];
+        const double weight = options.feature_weights[at(features.feature_of[k])];
         if (feature == Feature::shape_context) {
             fill_word_histograms(comm, collection, options, given, features.bins, weight,
                                  features.histograms.fill(k));

@@ -8,6 +8,7 @@
 #include "io/mesh_files/mesh_reader.hpp"
 #include "mpi_drivers/describe/description_file.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -18,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 void add_reading_time(MeshDescription& description, Clock::time_point start) {
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start).count();
-    description.step_seconds[static_cast<std::size_t>(DescribeStep::read)] += seconds;
+    description.step_seconds[at(DescribeStep::read)] += seconds;
     description.seconds += seconds;
     description.step_spans.push_back({DescribeStep::read, start, now});
 }

@@ -8,6 +8,7 @@
 #include "io/mesh_files/mesh_reader.hpp"
 #include "solvers/oversegmentation/oversegmentation.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 #include "src/descriptors/average_geodesic.hpp"
 #include "src/descriptors/conformal_factor.hpp"
@@ -44,7 +45,7 @@ class StepClock {
     void end_of(DescribeStep step) {
         const Clock::time_point now = Clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();
-        description_.step_seconds[static_cast<std::size_t>(step)] += seconds;
+        description_.step_seconds[at(step)] += seconds;
         description_.seconds += seconds;
         description_.step_spans.push_back({step, last_, now});
         last_ = now;
@@ -101,7 +102,7 @@ TriMesh working_mesh(MeshDescription& description, const std::string& path,
 }
 
 Eigen::VectorXd& descriptor(MeshDescription& description, Feature feature) {
-    return description.descriptors[static_cast<std::size_t>(feature)];
+    return description.descriptors[at(feature)];
 }
 
 void describe_faces(MeshDescription& description, const TriMesh& mesh, const DescriptionOptions& options,
@@ -137,8 +138,8 @@ void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const D
     }
     for (int a = 0; a < options.oversegmentations; ++a) {
         for (int b = a + 1; b < options.oversegmentations; ++b) {
-            const std::vector<int>& patches_a = description.patches[static_cast<std::size_t>(a)];
-            const std::vector<int>& patches_b = description.patches[static_cast<std::size_t>(b)];
+            const std::vector<int>& patches_a = description.patches[at(a)];
+            const std::vector<int>& patches_b = description.patches[at(b)];
             description.overlaps.push_back(
                 {a, b, patch_overlaps(description.geometry, patches_a, patches_b)});
         }

@@ -6,6 +6,7 @@
 
 #include "mpi_drivers/describe/kept_description.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/parallel/shared_counter.hpp"
 
 namespace coseg {
@@ -21,9 +22,8 @@ struct Attempt {
 std::vector<int> schedule(const std::vector<MeshEntry>& entries) {
     std::vector<int> order(entries.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-        return entries[static_cast<std::size_t>(a)].bytes > entries[static_cast<std::size_t>(b)].bytes;
-    });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return entries[at(a)].bytes > entries[at(b)].bytes; });
     return order;
 }
 
@@ -49,7 +49,7 @@ void trace_mesh(const Attempt& attempt, int number, const MeshEntry& entry, Stag
                 StageLog& log) {
     if (!attempt.described.empty() && attempt.described.back().mesh == number) {
         for (const StepSpan& span : attempt.described.back().step_spans)
-            log.span(describe_step_names[static_cast<std::size_t>(span.step)], "step", span.start, span.end);
+            log.span(describe_step_names[at(span.step)], "step", span.start, span.end);
     }
     log.span(entry.name, "mesh", start, StageLog::Clock::now());
 }
@@ -77,8 +77,8 @@ Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& en
     SharedCounter counter(comm);
     for (std::int64_t k = counter.next(); k < total; k = counter.next()) {
         log.progress(k, total);
-        const int number = order[static_cast<std::size_t>(k)];
-        const MeshEntry& entry = entries[static_cast<std::size_t>(number)];
+        const int number = order[at(k)];
+        const MeshEntry& entry = entries[at(number)];
         const StageLog::Clock::time_point start = StageLog::Clock::now();
         const bool goes_on = attempt_one(attempt, number, entry, description, folder);
         trace_mesh(attempt, number, entry, start, log);
@@ -163,8 +163,7 @@ PatchNumbering agree_on_numbering(const Comm& comm, const std::vector<MeshDescri
     std::vector<int> counts(meshes * static_cast<std::size_t>(oversegmentations), 0);
     for (const MeshDescription& description : local) {
         for (int s = 0; s < oversegmentations; ++s) {
-            counts[static_cast<std::size_t>(description.mesh * oversegmentations + s)] =
-                description.patch_counts[static_cast<std::size_t>(s)];
+            counts[at(description.mesh * oversegmentations + s)] = description.patch_counts[at(s)];
         }
     }
     return {oversegmentations, share_integers(comm, std::move(counts))};
@@ -182,7 +181,7 @@ void share_warnings(const Comm& comm, Collection& collection) {
     const std::vector<int> all_owners = all_gather(comm, std::span<const int>(owners));
     const std::vector<std::string> all_sentences = all_gather_texts(comm, sentences);
     for (std::size_t k = 0; k < all_sentences.size(); ++k) {
-        collection.meshes[static_cast<std::size_t>(all_owners[k])].warnings.push_back(all_sentences[k]);
+        collection.meshes[at(all_owners[k])].warnings.push_back(all_sentences[k]);
     }
 }
 
@@ -258,7 +257,7 @@ DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry
     totals.described = all_sum(comm, static_cast<std::int64_t>(attempt.described.size())) - totals.reused;
     totals.warnings = all_gather_texts(comm, warnings);
     for (const auto& [number, error] : failures)
-        totals.set_aside.push_back({entries[static_cast<std::size_t>(number)].path, error.what()});
+        totals.set_aside.push_back({entries[at(number)].path, error.what()});
     return totals;
 }
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <span>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 std::vector<int> gathered_order(const Collection& collection, int ranks) {
     std::vector<std::vector<int>> of_rank(static_cast<std::size_t>(ranks));
     for (std::size_t m = 0; m < collection.meshes.size(); ++m) {
-        of_rank[static_cast<std::size_t>(collection.meshes[m].owner)].push_back(static_cast<int>(m));
+        of_rank[at(collection.meshes[m].owner)].push_back(static_cast<int>(m));
     }
     std::vector<int> order;
     for (const auto& meshes : of_rank) order.insert(order.end(), meshes.begin(), meshes.end());

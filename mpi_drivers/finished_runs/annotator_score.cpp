@@ -9,6 +9,7 @@
 #include "io/data_files/label_file.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/connected_pieces.hpp"
 #include "src/repair/mesh_repair.hpp"
 
@@ -34,7 +35,7 @@ std::vector<std::string> annotations_of(const std::string& folder, const std::st
 
 std::vector<int> on_working_faces(const std::vector<int>& label, const FaceMap& map) {
     std::vector<int> working;
-    for (const int f : map.input_face) working.push_back(label[static_cast<std::size_t>(f)]);
+    for (const int f : map.input_face) working.push_back(label[at(f)]);
     return working;
 }
 

@@ -1,5 +1,6 @@
 #include "mpi_drivers/finished_runs/face_descriptors.hpp"
 
+#include "src/base/index.hpp"
 #include "src/descriptors/shape_context.hpp"
 
 namespace coseg {
@@ -52,8 +53,7 @@ FaceDescriptors face_descriptors(const FinishedRun& run, const LabelledMesh& sha
     options.geodesic_samples = run.geodesic_samples;
     MeshDescription description =
         describe_mesh_faces(shape.number, shape.name, shape.path, description_options(options));
-    description.descriptors[static_cast<std::size_t>(Feature::shape_context)] =
-        mean_ring(description.shape_context);
+    description.descriptors[at(Feature::shape_context)] = mean_ring(description.shape_context);
     FaceDescriptors values;
     for (std::size_t h = 0; h < values.size(); ++h)
         values[h] = per_input_face(description.map, description.descriptors[h], description.geometry.area);

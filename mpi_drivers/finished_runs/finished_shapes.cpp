@@ -9,6 +9,7 @@
 #include "io/data_files/label_file.hpp"
 #include "io/mesh_files/mesh_list.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/polygon_area.hpp"
 #include "src/metrics/assignment.hpp"
 
@@ -36,7 +37,7 @@ std::string path_of(const FinishedShape& shape, const std::map<std::string, std:
 
 LabelledMesh read_shape(const FinishedRun& run, int number, const FinishedInput& input,
                         const std::map<std::string, std::string>& paths) {
-    const FinishedShape& shape = run.shapes[static_cast<std::size_t>(number)];
+    const FinishedShape& shape = run.shapes[at(number)];
     LabelledMesh labelled;
     labelled.number = number;
     labelled.name = shape.name;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "src/base/index.hpp"
 #include "src/mesh/polygon_area.hpp"
 #include "src/pictures/color_scale.hpp"
 #include "src/pictures/part_colors.hpp"
@@ -39,7 +40,7 @@ std::vector<int> part_of_label(const std::vector<int>& label_of_part, int labels
     std::vector<int> parts(static_cast<std::size_t>(labels), -1);
     for (std::size_t p = 0; p < label_of_part.size(); ++p) {
         if (label_of_part[p] >= 0 && label_of_part[p] < labels)
-            parts[static_cast<std::size_t>(label_of_part[p])] = static_cast<int>(p);
+            parts[at(label_of_part[p])] = static_cast<int>(p);
     }
     int next = static_cast<int>(label_of_part.size());
     for (int& part : parts) part = part < 0 ? next++ : part;
@@ -51,7 +52,7 @@ std::vector<Color> truth_colors(const LabelledMesh& shape, const std::vector<int
     const std::vector<int> parts = part_of_label(label_of_part, std::max(largest, 0) + 1);
     std::vector<Color> colors(static_cast<std::size_t>(shape.mesh.face_count()), without_truth);
     for (std::size_t f = 0; f < shape.truth.size(); ++f) {
-        if (shape.truth[f] >= 0) colors[f] = part_color(parts[static_cast<std::size_t>(shape.truth[f])]);
+        if (shape.truth[f] >= 0) colors[f] = part_color(parts[at(shape.truth[f])]);
     }
     return colors;
 }
@@ -85,7 +86,7 @@ std::vector<LegendEntry> truth_legend(const PartKey& key, const std::vector<int>
     const std::vector<int> parts = part_of_label(key.label_of_part, labels.empty() ? 0 : labels.back() + 1);
     const int count = static_cast<int>(key.label_of_part.size());
     for (const int label : labels) {
-        const int part = parts[static_cast<std::size_t>(label)];
+        const int part = parts[at(label)];
         if (part >= count) legend.push_back({part_color(part), label_text(key.names, label) + ", no part"});
     }
     return legend;
@@ -108,7 +109,7 @@ DrawnShape drawn_errors(const LabelledMesh& shape, const std::vector<int>& label
     double right_area = 0.0;
     for (std::size_t f = 0; f < colors.size(); ++f) {
         if (shape.truth[f] < 0) continue;
-        const bool is_right = label_of_part[static_cast<std::size_t>(shape.part[f])] == shape.truth[f];
+        const bool is_right = label_of_part[at(shape.part[f])] == shape.truth[f];
         colors[f] = is_right ? right : wrong;
         if (is_right) right_area += areas[f];
     }
@@ -141,8 +142,7 @@ ValueRange agreed_range(const Comm& comm, const std::vector<LabelledMesh>& shape
     }
     const std::vector<double> all = all_gather(comm, std::span<const double>(rows));
     std::vector<ValueRange> ranges(total);
-    for (std::size_t k = 0; k + 2 < all.size(); k += 3)
-        ranges[static_cast<std::size_t>(all[k])] = {all[k + 1], all[k + 2]};
+    for (std::size_t k = 0; k + 2 < all.size(); k += 3) ranges[at(all[k])] = {all[k + 1], all[k + 2]};
     ValueRange mean;
     for (const ValueRange& range : ranges) {
         mean.low += range.low / static_cast<double>(total);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "io/reports/png_writer.hpp"
+#include "src/base/index.hpp"
 #include "src/pictures/shape_picture.hpp"
 
 namespace coseg {
@@ -74,7 +75,7 @@ std::vector<SheetTile> gathered_tiles(const Comm& comm, const std::vector<int>& 
     std::vector<SheetTile> tiles(numbers.size());
     auto next = bytes.begin();
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-        SheetTile& tile = tiles[static_cast<std::size_t>(numbers[k] - first)];
+        SheetTile& tile = tiles[at(numbers[k] - first)];
         tile = {Image(size, size, picture_background), captions[k]};
         std::copy_n(next, tile.picture.bytes.size(), tile.picture.bytes.begin());
         next += static_cast<std::ptrdiff_t>(tile.picture.bytes.size());

@@ -8,6 +8,7 @@
 
 #include "io/files/hdf5_file.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -156,11 +157,11 @@ SolveIterate cut_to(const std::vector<SolveIterate>& parts, BlockRange wanted, i
         const std::int64_t begin = std::max(part.columns.begin, wanted.begin) - part.columns.begin;
         const std::int64_t end = std::min(part.columns.end, wanted.end) - part.columns.begin;
         if (begin >= end) continue;
-        const std::int64_t first = part.offsets[static_cast<std::size_t>(begin)];
-        const std::int64_t last = part.offsets[static_cast<std::size_t>(end)];
+        const std::int64_t first = part.offsets[at(begin)];
+        const std::int64_t last = part.offsets[at(end)];
         for (std::int64_t c = begin + 1; c <= end; ++c) {
-            result.offsets.push_back(static_cast<std::int64_t>(result.rows.size()) +
-                                     part.offsets[static_cast<std::size_t>(c)] - first);
+            result.offsets.push_back(static_cast<std::int64_t>(result.rows.size()) + part.offsets[at(c)] -
+                                     first);
         }
         append(result.rows, part.rows, first, last);
         append(result.weights, part.weights, first * features, last * features);

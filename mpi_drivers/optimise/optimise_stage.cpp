@@ -8,6 +8,7 @@
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -42,8 +43,7 @@ void refuse_contradictions(const RunOptions& options) {
 int chosen_feature(const PatchFeatures& features, const RunOptions& options) {
     if (variant_of(options.variant) != SubspaceVariant::single_feature) return 0;
     for (std::size_t h = 0; h < features.feature_of.size(); ++h) {
-        if (feature_names[static_cast<std::size_t>(features.feature_of[h])] == options.feature)
-            return static_cast<int>(h);
+        if (feature_names[at(features.feature_of[h])] == options.feature) return static_cast<int>(h);
     }
     throw AgreedError(ExitCode::usage, "--feature " + options.feature +
                                            ": its weight is 0; give it a positive one in --feature-weights");
@@ -55,7 +55,7 @@ std::vector<std::string> feature_labels(const PatchFeatures& features, const Run
     if (variant != SubspaceVariant::multi_feature && variant != SubspaceVariant::independent)
         return {"concatenated"};
     std::vector<std::string> labels;
-    for (const int h : features.feature_of) labels.emplace_back(feature_names[static_cast<std::size_t>(h)]);
+    for (const int h : features.feature_of) labels.emplace_back(feature_names[at(h)]);
     return labels;
 }
 

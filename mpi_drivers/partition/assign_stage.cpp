@@ -7,6 +7,7 @@
 #include "mpi_drivers/describe/patch_gather.hpp"
 #include "solvers/partition/label_propagation.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -47,7 +48,7 @@ Eigen::MatrixXd evidence_of(const SparseCoefficients& w, const RunModel& model, 
              k < static_cast<std::size_t>(w.offsets[column + 1]); ++k) {
             const double norm =
                 Eigen::Map<const Eigen::VectorXd>(w.values.data() + k * features, w.features).norm();
-            evidence(model.part_of_patch[static_cast<std::size_t>(w.rows[k])], j) += norm;
+            evidence(model.part_of_patch[at(w.rows[k])], j) += norm;
         }
         const double sum = evidence.col(j).sum();
         if (sum > 0.0) evidence.col(j) /= sum;
@@ -112,7 +113,7 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Col
         assign_bonds);
     if (std::find(outcome.parts.begin(), outcome.parts.end(), -1) != outcome.parts.end()) {
         throw Error(ExitCode::input,
-                    collection.meshes[static_cast<std::size_t>(mesh.mesh)].path +
+                    collection.meshes[at(mesh.mesh)].path +
                         ": patches of it have nothing in common with the run's shapes; leave it out");
     }
     return outcome;
@@ -182,8 +183,7 @@ Assigned assign_parts(const Comm& comm, const Collection& collection, const Patc
     optimisation.scope = "mesh";
     optimisation.links = static_cast<int>(model.mesh_names.size());
     optimisation.allowed_pairs = std::llround(figures.row(allowed).sum());
-    for (const int h : features.feature_of)
-        optimisation.features.emplace_back(feature_names[static_cast<std::size_t>(h)]);
+    for (const int h : features.feature_of) optimisation.features.emplace_back(feature_names[at(h)]);
     SparseCoefficients& none = optimisation.result.coefficients;
     none.size = static_cast<std::int64_t>(assigned.cut.part_of_patch.size());
     none.columns = block_range(none.size, comm.size(), comm.rank(), coefficient_tile);

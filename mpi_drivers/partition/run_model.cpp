@@ -9,6 +9,7 @@
 #include "mpi_drivers/process/source_fingerprint.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 
 namespace coseg {
@@ -20,9 +21,7 @@ std::vector<int> kept_meshes(const std::vector<MeshFacts>& meshes, std::uint64_t
     std::vector<int> order(meshes.size());
     std::iota(order.begin(), order.end(), 0);
     if (order.size() <= static_cast<std::size_t>(meshes_linked_to_all)) return order;
-    const auto hash = [&](int m) {
-        return hash_words({seed, hash_text(meshes[static_cast<std::size_t>(m)].name)});
-    };
+    const auto hash = [&](int m) { return hash_words({seed, hash_text(meshes[at(m)].name)}); };
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return std::pair(hash(a), a) < std::pair(hash(b), b); });
     order.resize(static_cast<std::size_t>(default_links));
@@ -79,7 +78,7 @@ void write_bins(Hdf5Writer& file, const PatchFeatures& features) {
     for (const int h : features.feature_of) {
         if (static_cast<Feature>(h) == Feature::shape_context) continue;
         const FeatureRange& range = features.bins.ranges[scalar++];
-        file.write(std::string("ranges/") + feature_names[static_cast<std::size_t>(h)], range.edges);
+        file.write(std::string("ranges/") + feature_names[at(h)], range.edges);
     }
     for (std::size_t set = 0; set < features.bins.words.size(); ++set) {
         const Eigen::MatrixXf& words = features.bins.words[set];
@@ -98,7 +97,7 @@ Eigen::MatrixXf read_float_matrix(const Hdf5Reader& file, const std::string& nam
 
 void read_features(const Hdf5Reader& file, RunModel& model) {
     for (int h = 0; h < feature_total; ++h) {
-        const std::string name = feature_names[static_cast<std::size_t>(h)];
+        const std::string name = feature_names[at(h)];
         if (!file.has("features/" + name)) continue;
         model.feature_of.push_back(h);
         model.histograms.push_back(read_float_matrix(file, "features/" + name).cast<double>());
@@ -131,12 +130,12 @@ void write_patches(Hdf5Writer& file, const Collection& collection, const PatchFe
     for (const int mesh : patches.meshes) {
         const auto count = static_cast<std::size_t>(collection.numbering.count(mesh));
         mesh_of.insert(mesh_of.end(), count, static_cast<std::int32_t>(names.size()));
-        names.push_back(collection.meshes[static_cast<std::size_t>(mesh)].name);
+        names.push_back(collection.meshes[at(mesh)].name);
     }
-    for (const int p : patches.columns) parts.push_back(part_of_patch[static_cast<std::size_t>(p)]);
+    for (const int p : patches.columns) parts.push_back(part_of_patch[at(p)]);
     for (std::size_t h = 0; h < patches.histograms.size(); ++h) {
         const Eigen::MatrixXf& kept = patches.histograms[h];
-        file.write(std::string("features/") + feature_names[static_cast<std::size_t>(features.feature_of[h])],
+        file.write(std::string("features/") + feature_names[at(features.feature_of[h])],
                    std::span<const float>(kept.data(), static_cast<std::size_t>(kept.size())),
                    {static_cast<std::uint64_t>(kept.cols()), static_cast<std::uint64_t>(kept.rows())}, true);
     }

@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "mpi_drivers/optimise/optimise_stage.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Joined sets of numbers, each known by its lowest.
 class JoinedSets {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -25,7 +27,7 @@ PartCollection part_of_collection(const Comm& comm, const Collection& collection
     const PatchNumbering& numbering = collection.numbering;
     std::vector<int> counts;
     for (const int m : meshes) {
-        part.collection.meshes.push_back(collection.meshes[static_cast<std::size_t>(m)]);
+        part.collection.meshes.push_back(collection.meshes[at(m)]);
         for (int s = 0; s < numbering.oversegmentations(); ++s) {
             counts.push_back(numbering.count(m, s));
             for (int k = 0; k < numbering.count(m, s); ++k)
@@ -40,8 +42,7 @@ PartCollection part_of_collection(const Comm& comm, const Collection& collection
     }
     part.features.histograms = features.histograms.chosen(comm, part.patch_of);
     part.features.feature_of = features.feature_of;
-    for (const int patch : part.patch_of)
-        part.features.patch_area.push_back(features.patch_area[static_cast<std::size_t>(patch)]);
+    for (const int patch : part.patch_of) part.features.patch_area.push_back(features.patch_area[at(patch)]);
     part.features.positions = features.positions(Eigen::all, part.patch_of);
     return part;
 }

@@ -5,6 +5,7 @@
 
 #include "mpi_drivers/partition/sub_collection.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/metrics/assignment.hpp"
 #include "src/patches/overlapping_subsets.hpp"
 
@@ -31,12 +32,12 @@ void take_columns(const Comm& comm, const SparseCoefficients& local, const std::
     const auto width = static_cast<std::size_t>(local.features);
     std::size_t entry = 0;
     for (std::size_t c = 0; c < counts.size(); ++c) {
-        auto& column = columns.of_patch[static_cast<std::size_t>(patch_of[c])];
+        auto& column = columns.of_patch[at(patch_of[c])];
         const bool taken = !column.empty();
         for (int k = 0; k < counts[c]; ++k, ++entry) {
             if (taken) continue;
             const auto first = values.begin() + static_cast<std::ptrdiff_t>(entry * width);
-            column.emplace_back(patch_of[static_cast<std::size_t>(rows[entry])],
+            column.emplace_back(patch_of[at(rows[entry])],
                                 std::vector<double>(first, first + local.features));
         }
     }
@@ -49,7 +50,7 @@ SparseCoefficients own_columns(const Comm& comm, const GlobalColumns& columns) {
     own.features = columns.features;
     own.offsets.assign(1, 0);
     for (std::int64_t j = own.columns.begin; j < own.columns.end; ++j) {
-        for (const auto& [row, values] : columns.of_patch[static_cast<std::size_t>(j)]) {
+        for (const auto& [row, values] : columns.of_patch[at(j)]) {
             own.rows.push_back(row);
             own.values.insert(own.values.end(), values.begin(), values.end());
         }
@@ -95,7 +96,7 @@ Matching match_parts(const std::vector<int>& part_of_patch, const std::vector<in
     }
     Matching matching{.part_of = best_assignment(shared)};
     double agreed = 0.0;
-    for (int p = 0; p < parts; ++p) agreed += shared(p, matching.part_of[static_cast<std::size_t>(p)]);
+    for (int p = 0; p < parts; ++p) agreed += shared(p, matching.part_of[at(p)]);
     if (shared.sum() > 0.0) matching.agreement = agreed / shared.sum();
     return matching;
 }
@@ -125,8 +126,8 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
             match_parts(cut.part_of_patch, part.patch_of, known, features.patch_area, options.parts);
         if (s > 0) agreement += matching.agreement;
         for (std::size_t i = 0; i < part.patch_of.size(); ++i) {
-            int& label = known[static_cast<std::size_t>(part.patch_of[i])];
-            if (label < 0) label = matching.part_of[static_cast<std::size_t>(cut.part_of_patch[i])];
+            int& label = known[at(part.patch_of[i])];
+            if (label < 0) label = matching.part_of[at(cut.part_of_patch[i])];
         }
     }
     outcome.optimisation.subsets = static_cast<int>(plan.subsets.size());

@@ -2,6 +2,7 @@
 
 #include "io/data_files/feature_file.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -15,8 +16,7 @@ void write_features(const Comm& comm, const Collection& collection, const PatchF
     agree(comm, [&] {
         if (!comm.is_root()) return;
         FeatureFile file;
-        for (const int h : features.feature_of)
-            file.names.emplace_back(feature_names[static_cast<std::size_t>(h)]);
+        for (const int h : features.feature_of) file.names.emplace_back(feature_names[at(h)]);
         file.features = features.histograms.matrices();
         file.mesh_of = collection.numbering.mesh_of();
         for (const MeshFacts& mesh : collection.meshes) file.mesh_names.push_back(mesh.name);

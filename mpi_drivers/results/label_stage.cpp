@@ -3,6 +3,7 @@
 #include <string>
 
 #include "solvers/boundaries/fuzzy_cut.hpp"
+#include "src/base/index.hpp"
 #include "src/patches/face_labels.hpp"
 
 namespace coseg {
@@ -23,7 +24,7 @@ std::vector<double> area_shares(const Eigen::VectorXd& area, const std::vector<i
                                 int parts) {
     std::vector<double> share(static_cast<std::size_t>(parts), 0.0);
     for (std::size_t f = 0; f < part_of_face.size(); ++f) {
-        share[static_cast<std::size_t>(part_of_face[f])] += area[static_cast<Eigen::Index>(f)];
+        share[at(part_of_face[f])] += area[static_cast<Eigen::Index>(f)];
     }
     return share;
 }

@@ -11,6 +11,7 @@
 #include "mpi_drivers/process/version.hpp"
 #include "solvers/affinity/affinity_picture.hpp"
 #include "solvers/subspace/feature_strength.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -30,8 +31,7 @@ Eigen::MatrixXd gather_part_areas(const Comm& comm, const RunOutcome& outcome) {
     const auto meshes = static_cast<Eigen::Index>(outcome.collection.meshes.size());
     Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(outcome.options.parts, meshes);
     for (const MeshLabels& labels : outcome.labels) {
-        for (Eigen::Index p = 0; p < shares.rows(); ++p)
-            shares(p, labels.mesh) = labels.part_area[static_cast<std::size_t>(p)];
+        for (Eigen::Index p = 0; p < shares.rows(); ++p) shares(p, labels.mesh) = labels.part_area[at(p)];
     }
     MPI_Allreduce(MPI_IN_PLACE, shares.data(), static_cast<int>(shares.size()), MPI_DOUBLE, MPI_SUM,
                   comm.raw());
@@ -121,7 +121,7 @@ void add_partition(Report& report, const CutResult& cut) {
         report.position_correlations.push_back(cut.frame.correlation[a]);
     }
     if (cut.starts.empty()) return;  // one part needs no cut
-    report.eigenvalues = cut.starts[static_cast<std::size_t>(cut.chosen)].eigenvalues;
+    report.eigenvalues = cut.starts[at(cut.chosen)].eigenvalues;
 }
 
 void add_run_facts(const Comm& comm, Report& report, const StageLog& log) {
@@ -174,7 +174,7 @@ void write_meshes(const Comm& comm, const ResultFolder& folder, const Collection
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {
             const MeshDescription& mesh = collection.local[k];
-            const std::string& name = collection.meshes[static_cast<std::size_t>(mesh.mesh)].name;
+            const std::string& name = collection.meshes[at(mesh.mesh)].name;
             write_labels(folder.staging() + "/labels/" + name + ".seg", labels[k].part);
             write_labels(folder.staging() + "/patches/" + name + ".seg", labels[k].patch);
             write_colored_ply(folder.staging() + "/ply/" + name + ".ply", mesh.input, labels[k].part);

@@ -4,6 +4,7 @@
 
 #include "mpi_drivers/finished_runs/sheet_kinds.hpp"
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -28,7 +29,7 @@ void write_run_sheet(const Comm& comm, const ResultFolder& folder, const Collect
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {
             const MeshDescription& mesh = collection.local[k];
-            shapes.push_back({mesh.mesh, collection.meshes[static_cast<std::size_t>(mesh.mesh)].name,
+            shapes.push_back({mesh.mesh, collection.meshes[at(mesh.mesh)].name,
                               picture_mesh(mesh.input, colors_of(labels[k].part))});
         }
     });

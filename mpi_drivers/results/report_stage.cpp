@@ -6,6 +6,7 @@
 
 #include "io/files/file_contents.hpp"
 #include "io/reports/report_page.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/polygon_area.hpp"
 #include "src/mesh/vertex_clustering.hpp"
 
@@ -25,8 +26,7 @@ double accuracy_of(const LabelledMesh& shape, const std::vector<bool>& is_wrong)
 std::vector<bool> wrong_faces(const LabelledMesh& shape, const std::vector<int>& label_of_part) {
     std::vector<bool> is_wrong(shape.part.size(), false);
     for (std::size_t f = 0; f < shape.truth.size(); ++f)
-        is_wrong[f] =
-            shape.truth[f] < 0 || label_of_part[static_cast<std::size_t>(shape.part[f])] != shape.truth[f];
+        is_wrong[f] = shape.truth[f] < 0 || label_of_part[at(shape.part[f])] != shape.truth[f];
     return is_wrong;
 }
 
@@ -36,7 +36,7 @@ std::string packed_shape(const LabelledMesh& shape, const std::vector<bool>& is_
     std::vector<int> labels;
     std::vector<bool> wrong;
     for (const int triangle : coarse.triangle) {
-        const auto face = static_cast<std::size_t>(picture.faces[static_cast<std::size_t>(triangle)]);
+        const auto face = static_cast<std::size_t>(picture.faces[at(triangle)]);
         labels.push_back(shape.part[face]);
         wrong.push_back(is_wrong[face]);
     }
@@ -56,7 +56,7 @@ std::vector<PageShape> gathered(const Comm& comm, const PackedShapes& local) {
     std::vector<std::string> packed = all_gather_texts(comm, local.packed);
     std::vector<PageShape> shapes(numbers.size());
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-        PageShape& shape = shapes[static_cast<std::size_t>(numbers[k])];
+        PageShape& shape = shapes[at(numbers[k])];
         shape.packed = std::move(packed[k]);
         if (accuracies[k] >= 0.0) shape.accuracy = accuracies[k];
     }

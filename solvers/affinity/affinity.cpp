@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -28,9 +30,8 @@ SparseRows plus_transpose(const Comm& comm, const SparseCoefficients& coefficien
     entries.reserve(2 * values.size());
     for (std::int64_t c = 0; c < coefficients.columns.size(); ++c) {
         const auto column = static_cast<int>(coefficients.columns.begin + c);
-        const auto end = static_cast<std::size_t>(coefficients.offsets[static_cast<std::size_t>(c) + 1]);
-        for (auto k = static_cast<std::size_t>(coefficients.offsets[static_cast<std::size_t>(c)]); k < end;
-             ++k) {
+        const auto end = static_cast<std::size_t>(coefficients.offsets[at(c) + 1]);
+        for (auto k = static_cast<std::size_t>(coefficients.offsets[at(c)]); k < end; ++k) {
             entries.push_back({coefficients.rows[k], column, values[k]});
             entries.push_back({column, coefficients.rows[k], values[k]});
         }
@@ -79,7 +80,7 @@ void apply_minima_rule(SparseRows& affinity, const std::vector<GlobalPatchNeighb
         const auto end = affinity.columns.begin() + affinity.offsets[r + 1];
         const auto place = std::lower_bound(begin, end, column);
         if (place == end || *place != column) return;
-        affinity.values[static_cast<std::size_t>(place - affinity.columns.begin())] *= factor;
+        affinity.values[at(place - affinity.columns.begin())] *= factor;
     };
     for (const GlobalPatchNeighbors& pair : neighbors) {
         const double factor = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
@@ -93,7 +94,7 @@ SparseRows adjacency_affinity(BlockRange range, const std::vector<GlobalPatchNei
     const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
     std::vector<double> mesh_total(static_cast<std::size_t>(meshes), 0.0);
     const auto mesh = [&](const GlobalPatchNeighbors& pair) {
-        return static_cast<std::size_t>(mesh_of[static_cast<std::size_t>(pair.patch_a)]);
+        return static_cast<std::size_t>(mesh_of[at(pair.patch_a)]);
     };
     for (const GlobalPatchNeighbors& pair : neighbors) mesh_total[mesh(pair)] += 2.0 * adjacency_weight(pair);
     std::vector<SparseEntry> entries;

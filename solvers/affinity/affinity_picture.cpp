@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string_view>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -27,12 +29,10 @@ double pair_norm(const SparseCoefficients& coefficients, std::size_t pair) {
 std::vector<int> sorted_places(const std::vector<int>& part_of_patch) {
     std::vector<int> order(part_of_patch.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-        return part_of_patch[static_cast<std::size_t>(a)] < part_of_patch[static_cast<std::size_t>(b)];
-    });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return part_of_patch[at(a)] < part_of_patch[at(b)]; });
     std::vector<int> places(order.size());
-    for (std::size_t k = 0; k < order.size(); ++k)
-        places[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < order.size(); ++k) places[at(order[k])] = static_cast<int>(k);
     return places;
 }
 
@@ -47,12 +47,10 @@ std::vector<std::int64_t> summed_bins(const Comm& comm, const SparseCoefficients
     largest = all_max(comm, largest);
     std::vector<std::int64_t> sums(bins * bins, 0);
     for (std::size_t c = 0; largest > 0.0 && c < static_cast<std::size_t>(coefficients.columns.size()); ++c) {
-        const auto column =
-            static_cast<std::size_t>(bin_of_patch[static_cast<std::size_t>(coefficients.columns.begin) + c]);
+        const auto column = static_cast<std::size_t>(bin_of_patch[at(coefficients.columns.begin) + c]);
         for (auto k = static_cast<std::size_t>(coefficients.offsets[c]);
              k < static_cast<std::size_t>(coefficients.offsets[c + 1]); ++k) {
-            const auto row =
-                static_cast<std::size_t>(bin_of_patch[static_cast<std::size_t>(coefficients.rows[k])]);
+            const auto row = static_cast<std::size_t>(bin_of_patch[at(coefficients.rows[k])]);
             const std::int64_t link = std::llround(norms[k] / largest * ticks);
             sums[row * bins + column] += link;
             sums[column * bins + row] += link;
@@ -72,7 +70,7 @@ AffinityPicture affinity_picture(const Comm& comm, const SparseCoefficients& coe
     std::vector<std::int64_t> sizes(bins, 0);
     for (int& place : bin_of_patch) {
         place = static_cast<int>(place * static_cast<std::int64_t>(bins) / patches);
-        ++sizes[static_cast<std::size_t>(place)];
+        ++sizes[at(place)];
     }
     const std::vector<std::int64_t> sums = summed_bins(comm, coefficients, bin_of_patch, bins);
     std::vector<double> means(sums.size());
@@ -85,7 +83,7 @@ AffinityPicture affinity_picture(const Comm& comm, const SparseCoefficients& coe
         picture.rows.emplace_back();
         for (std::size_t column = 0; column < bins; ++column) {
             const double level = largest > 0.0 ? std::sqrt(means[row * bins + column] / largest) : 0.0;
-            picture.rows.back() += digits[static_cast<std::size_t>(std::lround(level * 35.0))];
+            picture.rows.back() += digits[at(std::lround(level * 35.0))];
         }
     }
     std::int64_t before = 0;

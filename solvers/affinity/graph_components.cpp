@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -14,17 +16,17 @@ class DisjointSets {
   public:
     explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
     int find(int i) {
-        while (at(i) != i) i = at(i) = at(at(i));
+        while (parent(i) != i) i = parent(i) = parent(parent(i));
         return i;
     }
     void join(int i, int j) {
         const int a = find(i);
         const int b = find(j);
-        at(std::max(a, b)) = std::min(a, b);
+        parent(std::max(a, b)) = std::min(a, b);
     }
 
   private:
-    int& at(int i) { return parent_[static_cast<std::size_t>(i)]; }
+    int& parent(int i) { return parent_[at(i)]; }
     std::vector<int> parent_;
 };
 
@@ -52,7 +54,7 @@ int heaviest_label(const SparseRows& within_mesh_affinity, std::size_t row, cons
     std::map<int, double> weight;
     for (auto k = static_cast<std::size_t>(within_mesh_affinity.offsets[row]);
          k < static_cast<std::size_t>(within_mesh_affinity.offsets[row + 1]); ++k) {
-        const int label = labels[static_cast<std::size_t>(within_mesh_affinity.columns[k])];
+        const int label = labels[at(within_mesh_affinity.columns[k])];
         if (label >= 0 && within_mesh_affinity.values[k] > 0.0)
             weight[label] += within_mesh_affinity.values[k];
     }
@@ -75,7 +77,7 @@ std::vector<int> connected_components(const Comm& comm, const SparseRows& graph)
     join_rows(graph, sets);
     if (comm.size() > 1) join_over_ranks(comm, size, sets);
     std::vector<int> component(static_cast<std::size_t>(size));
-    for (int i = 0; i < size; ++i) component[static_cast<std::size_t>(i)] = sets.find(i);
+    for (int i = 0; i < size; ++i) component[at(i)] = sets.find(i);
     return component;
 }
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <span>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -22,10 +24,10 @@ using RowMoments = std::array<double, 4>;
 /// Calls visit(k, j) for each entry k of local row r whose column j is of another mesh.
 template <class Visit>
 void for_each_link(const SparseRows& links, const std::vector<int>& mesh_of, std::size_t r, Visit&& visit) {
-    const int mesh = mesh_of[static_cast<std::size_t>(links.rows.begin) + r];
+    const int mesh = mesh_of[at(links.rows.begin) + r];
     for (auto k = static_cast<std::size_t>(links.offsets[r]);
          k < static_cast<std::size_t>(links.offsets[r + 1]); ++k) {
-        if (mesh_of[static_cast<std::size_t>(links.columns[k])] != mesh) visit(k, links.columns[k]);
+        if (mesh_of[at(links.columns[k])] != mesh) visit(k, links.columns[k]);
     }
 }
 
@@ -103,8 +105,7 @@ void weigh_by_position(const PositionFrame& frame, const Eigen::Matrix3Xd& posit
             in_frame.col(static_cast<Eigen::Index>(links.rows.begin) + static_cast<Eigen::Index>(r));
         for_each_link(links, mesh_of, r, [&](std::size_t k, int j) {
             double logarithm = 0.0;
-            for (int a = 0; a < 3; ++a)
-                logarithm += along[static_cast<std::size_t>(a)].log_ratio(x[a], in_frame(a, j));
+            for (int a = 0; a < 3; ++a) logarithm += along[at(a)].log_ratio(x[a], in_frame(a, j));
             links.values[k] *= std::exp(std::max(logarithm, least_logarithm));
         });
     }

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -15,12 +16,12 @@ namespace {
 /// Counting sort by row, then each row by column and value.
 std::vector<std::int64_t> sort_by_row(BlockRange range, std::vector<SparseEntry>& entries) {
     std::vector<std::int64_t> starts(static_cast<std::size_t>(range.size()) + 1, 0);
-    for (const SparseEntry& e : entries) ++starts[static_cast<std::size_t>(e.row - range.begin) + 1];
+    for (const SparseEntry& e : entries) ++starts[at(e.row - range.begin) + 1];
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
     std::vector<std::int64_t> next(starts.begin(), starts.end() - 1);
     std::vector<SparseEntry> sorted(entries.size());
     for (const SparseEntry& e : entries) {
-        sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(e.row - range.begin)]++)] = e;
+        sorted[at(next[at(e.row - range.begin)]++)] = e;
     }
     entries = std::move(sorted);
     const auto before = [](const SparseEntry& a, const SparseEntry& b) {
@@ -52,7 +53,7 @@ std::vector<std::int64_t> counts_by_owner(const Comm& comm, std::int64_t size,
                                           const std::vector<SparseEntry>& entries) {
     std::vector<std::int64_t> counts(static_cast<std::size_t>(comm.size()), 0);
     for (const SparseEntry& e : entries) {
-        ++counts[static_cast<std::size_t>(block_owner(size, comm.size(), e.row, row_tile))];
+        ++counts[at(block_owner(size, comm.size(), e.row, row_tile))];
     }
     return counts;
 }
@@ -81,7 +82,7 @@ std::vector<SparseEntry> pack_by_owner(const Comm& comm, std::int64_t size, cons
     std::vector<SparseEntry> packed(entries.size());
     for (const SparseEntry& e : entries) {
         const int owner = block_owner(size, comm.size(), e.row, row_tile);
-        packed[static_cast<std::size_t>(next[static_cast<std::size_t>(owner)]++)] = e;
+        packed[at(next[at(owner)]++)] = e;
     }
     return packed;
 }
@@ -148,7 +149,7 @@ std::vector<double> row_sums(const SparseRows& matrix) {
     std::vector<double> sums(static_cast<std::size_t>(matrix.local_rows()), 0.0);
     for (std::size_t r = 0; r < sums.size(); ++r) {
         for (auto k = matrix.offsets[r]; k < matrix.offsets[r + 1]; ++k) {
-            sums[r] += matrix.values[static_cast<std::size_t>(k)];
+            sums[r] += matrix.values[at(k)];
         }
     }
     return sums;

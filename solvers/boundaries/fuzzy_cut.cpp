@@ -10,6 +10,7 @@
 
 #include "solvers/boundaries/minimum_cut.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/connected_pieces.hpp"
 
 namespace coseg {
@@ -23,8 +24,7 @@ using LabelPair = std::pair<int, int>;
 std::vector<LabelPair> touching_labels(const DualGraph& graph, const std::vector<int>& label) {
     std::vector<LabelPair> pairs;
     for (const DualEdge& e : graph.edges) {
-        const LabelPair pair = std::minmax(
-            {label[static_cast<std::size_t>(e.face_a)], label[static_cast<std::size_t>(e.face_b)]});
+        const LabelPair pair = std::minmax({label[at(e.face_a)], label[at(e.face_b)]});
         if (!e.is_virtual && pair.first != pair.second) pairs.push_back(pair);
     }
     std::sort(pairs.begin(), pairs.end());
@@ -35,10 +35,9 @@ std::vector<LabelPair> touching_labels(const DualGraph& graph, const std::vector
 /// Calls visit(edge, other face) for the real edges of a face.
 template <typename Visit>
 void for_each_neighbor(const DualGraph& graph, int face, const Visit& visit) {
-    for (int k = graph.offsets[static_cast<std::size_t>(face)];
-         k < graph.offsets[static_cast<std::size_t>(face) + 1]; ++k) {
-        const int e = graph.incident[static_cast<std::size_t>(k)];
-        if (!graph.edges[static_cast<std::size_t>(e)].is_virtual) visit(e, graph.other_face(e, face));
+    for (int k = graph.offsets[at(face)]; k < graph.offsets[at(face) + 1]; ++k) {
+        const int e = graph.incident[at(k)];
+        if (!graph.edges[at(e)].is_virtual) visit(e, graph.other_face(e, face));
     }
 }
 
@@ -55,24 +54,23 @@ BoundaryDistance distance_to_boundary(const DualGraph& graph, const std::vector<
                                       const IsBoundary& is_boundary) {
     BoundaryDistance distance{.of_face = std::vector<int>(label.size(), 0), .reached = {}};
     const auto reach = [&](int face, int steps) {
-        int& known = distance.of_face[static_cast<std::size_t>(face)];
+        int& known = distance.of_face[at(face)];
         if (known != 0) return;
         known = steps;
         distance.reached.push_back(face);
     };
     for (const DualEdge& e : graph.edges) {
-        const int label_a = label[static_cast<std::size_t>(e.face_a)];
-        const int label_b = label[static_cast<std::size_t>(e.face_b)];
+        const int label_a = label[at(e.face_a)];
+        const int label_b = label[at(e.face_b)];
         if (e.is_virtual || !is_boundary(label_a, label_b)) continue;
         reach(e.face_a, 1);
         reach(e.face_b, 1);
     }
     for (std::size_t head = 0; head < distance.reached.size(); ++head) {
         const int face = distance.reached[head];
-        const int steps = distance.of_face[static_cast<std::size_t>(face)];
+        const int steps = distance.of_face[at(face)];
         for_each_neighbor(graph, face, [&](int, int other) {
-            if (label[static_cast<std::size_t>(other)] == label[static_cast<std::size_t>(face)])
-                reach(other, steps + 1);
+            if (label[at(other)] == label[at(face)]) reach(other, steps + 1);
         });
     }
     return distance;
@@ -87,12 +85,12 @@ std::vector<char> movable_faces(const DualGraph& graph, const std::vector<int>& 
     const std::vector<int> region = connected_pieces(graph, label, VirtualEdges::ignored);
     std::vector<int> depth(label.size(), 0);  // per region: distance of its farthest face
     for (std::size_t f = 0; f < label.size(); ++f) {
-        int& deepest = depth[static_cast<std::size_t>(region[f])];
+        int& deepest = depth[at(region[f])];
         deepest = std::max(deepest, distance[f]);
     }
     std::vector<char> movable(label.size(), 0);
     for (std::size_t f = 0; f < label.size(); ++f) {
-        const int limit = std::min(width, depth[static_cast<std::size_t>(region[f])] / 2);
+        const int limit = std::min(width, depth[at(region[f])] / 2);
         movable[f] = distance[f] > 0 && distance[f] <= limit ? 1 : 0;
     }
     return movable;
@@ -136,17 +134,16 @@ std::vector<int> cut_strip(const DualGraph& graph, const std::vector<double>& ca
                            const std::vector<int>& label, const Holding& holding,
                            const std::vector<int>& strip, LabelPair pair) {
     std::vector<int> node(label.size(), -1);
-    for (std::size_t k = 0; k < strip.size(); ++k)
-        node[static_cast<std::size_t>(strip[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < strip.size(); ++k) node[at(strip[k])] = static_cast<int>(k);
     std::vector<double> to_a(strip.size(), 0.0), to_b(strip.size(), 0.0);
     std::vector<CutArc> arcs;
     for (std::size_t k = 0; k < strip.size(); ++k) {
         to_a[k] = holding.of(strip[k], pair.first);
         to_b[k] = holding.of(strip[k], pair.second);
         for_each_neighbor(graph, strip[k], [&](int e, int other) {
-            const double c = capacity[static_cast<std::size_t>(e)];
-            const int other_node = node[static_cast<std::size_t>(other)];
-            const int other_label = label[static_cast<std::size_t>(other)];
+            const double c = capacity[at(e)];
+            const int other_node = node[at(other)];
+            const int other_label = label[at(other)];
             if (other_node > static_cast<int>(k)) arcs.push_back({static_cast<int>(k), other_node, c, c});
             if (other_node < 0 && other_label == pair.first) to_a[k] += c;
             if (other_node < 0 && other_label == pair.second) to_b[k] += c;
@@ -177,8 +174,8 @@ std::vector<double> surface_distance(const DualGraph& graph, const FaceGeometry&
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     std::vector<double> distance(label.size(), limit);
     const auto reach = [&](int face, double far) {
-        if (far >= distance[static_cast<std::size_t>(face)]) return;
-        distance[static_cast<std::size_t>(face)] = far;
+        if (far >= distance[at(face)]) return;
+        distance[at(face)] = far;
         open.emplace(far, face);
     };
     const auto step = [&](int a, int b) {
@@ -186,14 +183,14 @@ std::vector<double> surface_distance(const DualGraph& graph, const FaceGeometry&
     };
     for (const DualEdge& e : graph.edges) {
         if (e.is_virtual) continue;
-        if (label[static_cast<std::size_t>(e.face_a)] == label[static_cast<std::size_t>(e.face_b)]) continue;
+        if (label[at(e.face_a)] == label[at(e.face_b)]) continue;
         reach(e.face_a, 0.5 * step(e.face_a, e.face_b));
         reach(e.face_b, 0.5 * step(e.face_a, e.face_b));
     }
     while (!open.empty()) {
         const Entry nearest = open.top();
         open.pop();
-        if (nearest.first > distance[static_cast<std::size_t>(nearest.second)]) continue;
+        if (nearest.first > distance[at(nearest.second)]) continue;
         for_each_neighbor(graph, nearest.second,
                           [&](int, int other) { reach(other, nearest.first + step(nearest.second, other)); });
     }
@@ -230,8 +227,7 @@ double boundary_capacity(const DualGraph& graph, const std::vector<double>& capa
     double sum = 0.0;
     for (std::size_t e = 0; e < capacity.size(); ++e) {
         const DualEdge& edge = graph.edges[e];
-        if (label[static_cast<std::size_t>(edge.face_a)] != label[static_cast<std::size_t>(edge.face_b)])
-            sum += capacity[e];
+        if (label[at(edge.face_a)] != label[at(edge.face_b)]) sum += capacity[e];
     }
     return sum;
 }
@@ -256,7 +252,7 @@ std::vector<int> fuzzy_cut(const DualGraph& graph, const std::vector<int>& label
         if (strip.empty()) continue;
         const std::vector<int> cut = cut_strip(graph, capacity, refined, held, strip, pair);
         std::vector<int> candidate = refined;
-        for (std::size_t k = 0; k < strip.size(); ++k) candidate[static_cast<std::size_t>(strip[k])] = cut[k];
+        for (std::size_t k = 0; k < strip.size(); ++k) candidate[at(strip[k])] = cut[k];
         if (cost(refined) - cost(candidate) > smallest_gain) refined = std::move(candidate);
     }
     return refined;

@@ -9,6 +9,7 @@
 #include "solvers/kmeans/word_search.hpp"
 #include "solvers/kmeans/word_seeds.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/histograms/hashed_sample.hpp"
 
 namespace coseg {
@@ -98,7 +99,7 @@ Eigen::MatrixXf gather_in_canonical_order(const Comm& comm, const std::vector<Sh
     });
     Eigen::MatrixXf rows(static_cast<Eigen::Index>(sampled.size()), dims);
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        const double* context = sampled[static_cast<std::size_t>(i)].context;
+        const double* context = sampled[at(i)].context;
         for (Eigen::Index d = 0; d < dims; ++d) rows(i, d) = static_cast<float>(context[d]);
     }
     return rows;
@@ -115,8 +116,7 @@ std::vector<int> canonical_numbers(const Eigen::MatrixXf& words) {
         return std::lexicographical_compare(x, x + dims, y, y + dims);
     });
     std::vector<int> rank_of(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        rank_of[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+    for (std::size_t i = 0; i < order.size(); ++i) rank_of[at(order[i])] = static_cast<int>(i);
     return rank_of;
 }
 
@@ -142,11 +142,11 @@ std::vector<std::vector<int>> shape_words(const Comm& comm, const std::vector<Sh
     const std::vector<int> number = canonical_numbers(centres);
     std::vector<std::vector<int>> word_of_face;
     for (WordedPoints& mesh : all) {
-        for (int& word : mesh.word) word = number[static_cast<std::size_t>(word)];
+        for (int& word : mesh.word) word = number[at(word)];
         word_of_face.push_back(std::move(mesh.word));
     }
     for (Eigen::Index w = 0; canonical != nullptr && w < centres.cols(); ++w)
-        canonical->col(number[static_cast<std::size_t>(w)]) = centres.col(w);
+        canonical->col(number[at(w)]) = centres.col(w);
     return word_of_face;
 }
 

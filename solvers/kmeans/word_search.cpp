@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solvers/numeric/blas.hpp"
+#include "src/base/index.hpp"
 #include "src/base/vector_clones.hpp"
 
 namespace coseg {
@@ -66,8 +67,7 @@ void WordSearch::search(const Eigen::MatrixXf& points, std::span<const int> colu
     const auto total = static_cast<Eigen::Index>(columns.size());
     for (Eigen::Index begin = 0; begin < total; begin += block_points) {
         const Eigen::Index count = std::min(block_points, total - begin);
-        for (Eigen::Index i = 0; i < count; ++i)
-            block.col(i) = points.col(columns[static_cast<std::size_t>(begin + i)]);
+        for (Eigen::Index i = 0; i < count; ++i) block.col(i) = points.col(columns[at(begin + i)]);
         multiply_transposed(static_cast<int>(block_points), static_cast<int>(words_.cols()),
                             static_cast<int>(dims), block.data(), static_cast<int>(dims), words_.data(),
                             static_cast<int>(dims), 0.0F, inner_products.data(),
@@ -78,9 +78,8 @@ void WordSearch::search(const Eigen::MatrixXf& points, std::span<const int> colu
             const float norm = square_norm(block.data() + i * dims, dims);
             // What rounding of the three terms may hide, so that second_distance stays a bound.
             const float rounding = 4e-6F * (norm + largest_square_norm_);
-            nearest[static_cast<std::size_t>(begin + i)] = {
-                minima.word[k], std::sqrt(std::max(0.0F, norm + minima.smallest[k])),
-                std::sqrt(std::max(0.0F, norm + minima.second[k] - rounding))};
+            nearest[at(begin + i)] = {minima.word[k], std::sqrt(std::max(0.0F, norm + minima.smallest[k])),
+                                      std::sqrt(std::max(0.0F, norm + minima.second[k] - rounding))};
         }
     }
 }

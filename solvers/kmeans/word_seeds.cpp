@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 #include "src/base/vector_clones.hpp"
 
@@ -23,11 +24,11 @@ COSEG_VECTOR_CLONES void lower_square_distances(const Eigen::MatrixXf& points, E
             const float* x = points.data() + d * points.rows() + begin;
             const float c = points(chosen, d);
             for (Eigen::Index i = 0; i < count; ++i) {
-                sum[static_cast<std::size_t>(i)] += (x[i] - c) * (x[i] - c);
+                sum[at(i)] += (x[i] - c) * (x[i] - c);
             }
         }
         for (Eigen::Index i = 0; i < count; ++i) {
-            const float candidate = sum[static_cast<std::size_t>(i)];
+            const float candidate = sum[at(i)];
             nearest[begin + i] = candidate < nearest[begin + i] ? candidate : nearest[begin + i];
         }
     }

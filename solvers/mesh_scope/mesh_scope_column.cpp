@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solvers/subspace/row_scope_column.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -67,7 +68,7 @@ void MeshScopeColumn::reconstruct_trial() {
             const double weight = trial_weights_[p * features + h];
             if (weight == 0.0) continue;
             for (int k = stack_.offset[h]; k < stack_.offset[h + 1]; ++k) {
-                trial_reconstruction_[static_cast<std::size_t>(k)] += weight * x[k];
+                trial_reconstruction_[at(k)] += weight * x[k];
             }
         }
     }
@@ -142,14 +143,14 @@ double MeshScopeColumn::shifted_decrease() {
             if (norm <= limit) continue;
             for (std::size_t h = 0; h < features; ++h) {
                 const double needed = std::max(-gradient[h] - penalties_.beta, 0.0) * (1.0 - limit / norm);
-                const auto row = static_cast<Eigen::Index>(column_.rows[static_cast<std::size_t>(p)]);
+                const auto row = static_cast<Eigen::Index>(column_.rows[at(p)]);
                 shift_[h] = std::max(shift_[h], needed / stack_.entry_sum(static_cast<Eigen::Index>(h), row));
             }
         }
     }
     for (std::size_t h = 0; h < features; ++h) {
         for (int k = stack_.offset[h]; k < stack_.offset[h + 1]; ++k) {
-            const double z = reconstruction_[static_cast<std::size_t>(k)] + 0.5 * shift_[h];
+            const double z = reconstruction_[at(k)] + 0.5 * shift_[h];
             decrease += z * z;
         }
     }

@@ -6,6 +6,7 @@
 
 #include "solvers/mesh_scope/mesh_scope_kernel.hpp"
 #include "solvers/numeric/blas.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -45,13 +46,13 @@ MeshOrder sort_by_mesh(const std::vector<int>& mesh_of) {
     MeshOrder meshes;
     meshes.order.resize(mesh_of.size());
     std::iota(meshes.order.begin(), meshes.order.end(), 0);
-    const auto mesh = [&](int i) { return mesh_of[static_cast<std::size_t>(i)]; };
+    const auto mesh = [&](int i) { return mesh_of[at(i)]; };
     std::stable_sort(meshes.order.begin(), meshes.order.end(),
                      [&](int a, int b) { return mesh(a) < mesh(b); });
     meshes.place.resize(mesh_of.size());
     for (std::size_t p = 0; p < meshes.order.size(); ++p) {
         const int i = meshes.order[p];
-        meshes.place[static_cast<std::size_t>(i)] = static_cast<int>(p);
+        meshes.place[at(i)] = static_cast<int>(p);
         if (meshes.group_mesh.empty() || meshes.group_mesh.back() != mesh(i)) {
             meshes.group_begin.push_back(static_cast<int>(p));
             meshes.group_mesh.push_back(mesh(i));
@@ -101,7 +102,7 @@ MeshScopePass::MeshScopePass(const Comm& comm, const FeatureStack& stack, const 
 MeshScopePass::Survey MeshScopePass::start_survey(const PassColumn& column, double rounding) const {
     Survey survey;
     survey.column = &column;
-    survey.own_group = meshes_.group_of[static_cast<std::size_t>(column.working->column)];
+    survey.own_group = meshes_.group_of[at(column.working->column)];
     survey.shifts = shift_pays(stack_, penalties_);
     survey.leaders.resize(meshes_.group_mesh.size());
     survey.largest2.assign(meshes_.group_mesh.size(), 0.0);
@@ -135,8 +136,8 @@ void MeshScopePass::score_rows(Survey& survey, const Scores<Real>& scores) {
         add_excess_squares(score, beta, count, squares.data());
     }
     for (int i = scores.begin; i < scores.end;) {
-        const int g = meshes_.group_of[static_cast<std::size_t>(i)];
-        const int stop = std::min(scores.end, meshes_.group_begin[static_cast<std::size_t>(g) + 1]);
+        const int g = meshes_.group_of[at(i)];
+        const int stop = std::min(scores.end, meshes_.group_begin[at(g) + 1]);
         if (g != survey.own_group) score_group(survey, g, i, stop, squares.data(), scores);
         i = stop;
     }
@@ -183,7 +184,7 @@ void MeshScopePass::require_shift(Survey& survey, int row, double norm, double l
         const auto score = static_cast<double>(scores.values[h * scores.stride + (row - scores.begin)]);
         const double excess = std::max(score - penalties_.beta, 0.0) + survey.absolute_error;
         const double needed = excess * (1.0 - limit / largest) * (1.0 + survey.relative_error);
-        double& shift = survey.shift[static_cast<std::size_t>(h)];
+        double& shift = survey.shift[at(h)];
         shift = std::max(shift, needed / stack_.entry_sum(h, row));
     }
 }
@@ -219,7 +220,7 @@ std::vector<ColumnVerdict> MeshScopePass::survey_all(const std::vector<PassColum
     std::vector<Survey> surveys;
     Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> duals(rows, width);
     for (int c = 0; c < width; ++c) {
-        const PassColumn& column = columns[static_cast<std::size_t>(c)];
+        const PassColumn& column = columns[at(c)];
         surveys.push_back(
             start_survey(column, 0.5 * static_cast<double>(std::numeric_limits<Real>::epsilon())));
         for (int k = 0; k < rows; ++k) {
@@ -231,14 +232,14 @@ std::vector<ColumnVerdict> MeshScopePass::survey_all(const std::vector<PassColum
     const std::int64_t stride = static_cast<std::int64_t>(chunk_rows) * width;
     for (const RowRun& run : row_runs(meshes_, allowed)) {
         for (int h = 0; h < stack_.features; ++h) {
-            const int from = stack_.offset[static_cast<std::size_t>(h)];
+            const int from = stack_.offset[at(h)];
             multiply_transposed(run.end - run.begin, width, stack_.rows_of(h),
                                 stacked + static_cast<std::int64_t>(run.begin) * rows + from, rows,
                                 duals.data() + from, rows, Real{0}, buffer.data() + h * stride, chunk_rows);
         }
         for (int c = 0; c < width; ++c) {
             score_rows<Real>(
-                surveys[static_cast<std::size_t>(c)],
+                surveys[at(c)],
                 {run.begin, run.end, buffer.data() + static_cast<std::int64_t>(c) * chunk_rows, stride});
         }
     }

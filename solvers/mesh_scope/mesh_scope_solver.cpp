@@ -11,6 +11,7 @@
 #include "solvers/mesh_scope/mesh_scope_column.hpp"
 #include "solvers/mesh_scope/mesh_scope_pass.hpp"
 #include "solvers/numeric/exact_sum.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -63,7 +64,7 @@ class MeshScopeSolver {
     /// The clock has cut a tile short: the last one solved depends on the machine.
     [[nodiscard]] bool timed_out() const noexcept { return timed_out_; }
     [[nodiscard]] const FeatureStack& stack() const noexcept { return stack_; }
-    [[nodiscard]] int patch(int place) const { return meshes_.order[static_cast<std::size_t>(place)]; }
+    [[nodiscard]] int patch(int place) const { return meshes_.order[at(place)]; }
 
   private:
     [[nodiscard]] Column start_column(std::int64_t patch) const;
@@ -87,7 +88,7 @@ class MeshScopeSolver {
 
 Column MeshScopeSolver::start_column(std::int64_t patch) const {
     Column column;
-    column.working.column = meshes_.place[static_cast<std::size_t>(patch)];
+    column.working.column = meshes_.place[at(patch)];
     column.working.group_begin = {0};
     column.reconstruction.assign(static_cast<std::size_t>(stack_.dimension), 0.0);
     column.group_sums.assign(meshes_.group_mesh.size(), 0.0);
@@ -105,8 +106,7 @@ std::vector<int> MeshScopeSolver::allowed_groups(int mesh) const {
     for (std::size_t g = 0; g < meshes_.group_mesh.size(); ++g) {
         const int other = meshes_.group_mesh[g];
         const bool all = allowed_meshes_.empty();
-        if (all || (other != mesh &&
-                    std::ranges::binary_search(allowed_meshes_[static_cast<std::size_t>(mesh)], other))) {
+        if (all || (other != mesh && std::ranges::binary_search(allowed_meshes_[at(mesh)], other))) {
             groups.push_back(static_cast<int>(g));
         }
     }
@@ -117,8 +117,8 @@ SolvedTile MeshScopeSolver::solve_tile(std::int64_t begin, std::int64_t end) {
     std::vector<Column> columns;
     for (std::int64_t j = begin; j < end; ++j) columns.push_back(start_column(j));
     const auto mesh_of = [&](const Column* column) {
-        const int group = meshes_.group_of[static_cast<std::size_t>(column->working.column)];
-        return meshes_.group_mesh[static_cast<std::size_t>(group)];
+        const int group = meshes_.group_of[at(column->working.column)];
+        return meshes_.group_mesh[at(group)];
     };
     std::vector<Column*> order;
     for (Column& column : columns) order.push_back(&column);
@@ -224,7 +224,7 @@ bool MeshScopeSolver::add_violators(Column& column, const ColumnVerdict& verdict
     column.groups.clear();
     std::size_t old = 0;
     for (std::size_t p = 0; p < rows.size(); ++p) {
-        const int group = meshes_.group_of[static_cast<std::size_t>(rows[p])];
+        const int group = meshes_.group_of[at(rows[p])];
         if (column.groups.empty() || column.groups.back() != group) {
             column.groups.push_back(group);
             working.group_begin.push_back(static_cast<int>(p));
@@ -255,7 +255,7 @@ void MeshScopeSolver::solve_working_set(Column& column) {
     column.decrease = -model.objective();
     column.reconstruction = model.reconstruction();
     for (std::size_t g = 0; g < column.groups.size(); ++g) {
-        column.group_sums[static_cast<std::size_t>(column.groups[g])] = model.group_sums()[g];
+        column.group_sums[at(column.groups[g])] = model.group_sums()[g];
     }
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solvers/oversegmentation/merge_queue.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -22,7 +23,7 @@ class ContactLists {
   public:
     explicit ContactLists(const WeightedGraph& graph);
     [[nodiscard]] std::span<const Contact> of(int group) const {
-        const Place& place = places_[static_cast<std::size_t>(group)];
+        const Place& place = places_[at(group)];
         return {contacts_.data() + place.begin, static_cast<std::size_t>(place.size)};
     }
     void unite(int a, int b);
@@ -73,7 +74,7 @@ void ContactLists::merge_both(int a, int b) {
 /// What a and b touch, a touches, and b nothing.
 void ContactLists::unite(int a, int b) {
     merge_both(a, b);
-    Place& place = places_[static_cast<std::size_t>(a)];
+    Place& place = places_[at(a)];
     const int size = static_cast<int>(both_.size());
     if (size > place.room) {
         place.begin = contacts_.size();
@@ -82,12 +83,12 @@ void ContactLists::unite(int a, int b) {
     }
     place.size = size;
     std::copy(both_.begin(), both_.end(), contacts_.begin() + static_cast<std::ptrdiff_t>(place.begin));
-    places_[static_cast<std::size_t>(b)].size = 0;
+    places_[at(b)].size = 0;
 }
 
 /// In the neighbour's list, what it shared with `from` it now shares with `to`, which is the lower number.
 void ContactLists::redirect(int neighbor, int from, int to) {
-    Place& place = places_[static_cast<std::size_t>(neighbor)];
+    Place& place = places_[at(neighbor)];
     Contact* const list = contacts_.data() + place.begin;
     int old = 0;
     while (list[old].group != from) ++old;
@@ -145,7 +146,7 @@ Agglomeration::Agglomeration(const WeightedGraph& graph)
     std::iota(parent_.begin(), parent_.end(), 0);
     groups_.reserve(graph.mass.size());
     for (int v = 0; v < count_; ++v) {
-        const double mass = graph.mass[static_cast<std::size_t>(v)];
+        const double mass = graph.mass[at(v)];
         double cut = 0.0;
         for (const Contact& c : contacts_.of(v)) cut += c.weight;
         groups_.push_back({mass, cut, cut / mass, 0});
@@ -155,8 +156,8 @@ Agglomeration::Agglomeration(const WeightedGraph& graph)
 
 /// Of the sum over groups of cut / mass, if a and b were merged; a < b, so that both see the same rounding.
 double Agglomeration::change(int a, int b, double shared) const {
-    const Group& x = groups_[static_cast<std::size_t>(a)];
-    const Group& y = groups_[static_cast<std::size_t>(b)];
+    const Group& x = groups_[at(a)];
+    const Group& y = groups_[at(b)];
     return (x.cut + y.cut - 2.0 * shared) / (x.mass + y.mass) - x.density - y.density;
 }
 
@@ -168,7 +169,7 @@ MergeCandidate Agglomeration::best_of(int owner, std::span<const Contact> contac
         if (best.owner < 0 || is_better(other, best)) best = other;
     }
     const int partner = best.partner();
-    best.partner_version = groups_[static_cast<std::size_t>(partner)].version;
+    best.partner_version = groups_[at(partner)].version;
     return best;
 }
 
@@ -183,7 +184,7 @@ void Agglomeration::renew_candidate(int owner) {
 void Agglomeration::merge_down_to(int target) {
     while (count_ > target && !candidates_.empty()) {
         const MergeCandidate best = candidates_.top();
-        const Group& partner = groups_[static_cast<std::size_t>(best.partner())];
+        const Group& partner = groups_[at(best.partner())];
         if (partner.version == best.partner_version)
             merge(best.group_a, best.group_b);
         else
@@ -196,8 +197,8 @@ void Agglomeration::merge(int a, int b) {
         if (c.group != a) contacts_.redirect(c.group, b, a);
     }
     contacts_.unite(a, b);
-    Group& grown = groups_[static_cast<std::size_t>(a)];
-    Group& absorbed = groups_[static_cast<std::size_t>(b)];
+    Group& grown = groups_[at(a)];
+    Group& absorbed = groups_[at(b)];
     grown.mass += absorbed.mass;
     // Summed anew: cut_a + cut_b - 2 c_ab would carry rounding errors from merge to merge.
     grown.cut = 0.0;
@@ -205,16 +206,16 @@ void Agglomeration::merge(int a, int b) {
     grown.density = grown.cut / grown.mass;
     ++grown.version;
     absorbed.version = -1;
-    parent_[static_cast<std::size_t>(b)] = a;
+    parent_[at(b)] = a;
     --count_;
     candidates_.remove(b);
     renew_candidate(a);
 }
 
 int Agglomeration::root(int node) {
-    while (parent_[static_cast<std::size_t>(node)] != node) {
-        int& parent = parent_[static_cast<std::size_t>(node)];
-        parent = parent_[static_cast<std::size_t>(parent)];
+    while (parent_[at(node)] != node) {
+        int& parent = parent_[at(node)];
+        parent = parent_[at(parent)];
         node = parent;
     }
     return node;
@@ -225,7 +226,7 @@ std::vector<int> Agglomeration::numbered_groups() {
     int count = 0;
     for (std::size_t v = 0; v < parent_.size(); ++v) {
         const int lowest = root(static_cast<int>(v));  // <= v, so numbered before its other nodes
-        group[v] = lowest == static_cast<int>(v) ? count++ : group[static_cast<std::size_t>(lowest)];
+        group[v] = lowest == static_cast<int>(v) ? count++ : group[at(lowest)];
     }
     return group;
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 
 namespace coseg {
@@ -49,10 +50,9 @@ InverseLaplacian::InverseLaplacian(const WeightedGraph& graph) {
     entries.reserve(graph.weights.size() / 2 + graph.mass.size());
     for (int v = 0; v < grounded; ++v) {
         double degree = 0.0;
-        for (int k = graph.offsets[static_cast<std::size_t>(v)];
-             k < graph.offsets[static_cast<std::size_t>(v) + 1]; ++k) {
-            const double weight = graph.weights[static_cast<std::size_t>(k)];
-            const int u = graph.neighbors[static_cast<std::size_t>(k)];
+        for (int k = graph.offsets[at(v)]; k < graph.offsets[at(v) + 1]; ++k) {
+            const double weight = graph.weights[at(k)];
+            const int u = graph.neighbors[at(k)];
             degree += weight;
             if (u < v) entries.emplace_back(v, u, -weight);
         }
@@ -104,11 +104,10 @@ FiedlerPair dense_pair(const WeightedGraph& graph) {
     const Eigen::VectorXd root_mass = Eigen::Map<const Eigen::VectorXd>(graph.mass.data(), n).cwiseSqrt();
     Eigen::MatrixXd scaled = Eigen::MatrixXd::Zero(n, n);
     for (int v = 0; v < n; ++v) {
-        for (int k = graph.offsets[static_cast<std::size_t>(v)];
-             k < graph.offsets[static_cast<std::size_t>(v) + 1]; ++k) {
-            const double weight = graph.weights[static_cast<std::size_t>(k)];
-            const int u = graph.neighbors[static_cast<std::size_t>(k)];
-            scaled(v, v) += weight / graph.mass[static_cast<std::size_t>(v)];
+        for (int k = graph.offsets[at(v)]; k < graph.offsets[at(v) + 1]; ++k) {
+            const double weight = graph.weights[at(k)];
+            const int u = graph.neighbors[at(k)];
+            scaled(v, v) += weight / graph.mass[at(v)];
             scaled(v, u) = -weight / (root_mass[v] * root_mass[u]);
         }
     }
@@ -121,11 +120,11 @@ FiedlerPair dense_pair(const WeightedGraph& graph) {
 std::vector<double> distances_from(const WeightedGraph& graph, int start) {
     std::vector<double> distance(graph.mass.size(), -1.0);
     std::vector<int> queue{start};
-    distance[static_cast<std::size_t>(start)] = 0.0;
+    distance[at(start)] = 0.0;
     for (std::size_t head = 0; head < queue.size(); ++head) {
         const auto v = static_cast<std::size_t>(queue[head]);
         for (int k = graph.offsets[v]; k < graph.offsets[v + 1]; ++k) {
-            const auto u = static_cast<std::size_t>(graph.neighbors[static_cast<std::size_t>(k)]);
+            const auto u = static_cast<std::size_t>(graph.neighbors[at(k)]);
             if (distance[u] >= 0.0) continue;
             distance[u] = distance[v] + 1.0;
             queue.push_back(static_cast<int>(u));
@@ -144,9 +143,7 @@ std::vector<double> distances_from_far_node(const WeightedGraph& graph) {
 TwoWayCut sweep_cut(const WeightedGraph& graph, const std::vector<double>& key) {
     std::vector<int> order(key.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-        return key[static_cast<std::size_t>(a)] < key[static_cast<std::size_t>(b)];
-    });
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key[at(a)] < key[at(b)]; });
     const double total = std::accumulate(graph.mass.begin(), graph.mass.end(), 0.0);
     TwoWayCut best{.side = std::vector<char>(key.size(), 1),
                    .value = std::numeric_limits<double>::infinity()};
@@ -158,8 +155,7 @@ TwoWayCut sweep_cut(const WeightedGraph& graph, const std::vector<double>& key) 
         const auto v = static_cast<std::size_t>(order[size - 1]);
         for (int k = graph.offsets[v]; k < graph.offsets[v + 1]; ++k) {
             const auto slot = static_cast<std::size_t>(k);
-            cut += is_in[static_cast<std::size_t>(graph.neighbors[slot])] != 0 ? -graph.weights[slot]
-                                                                               : graph.weights[slot];
+            cut += is_in[at(graph.neighbors[slot])] != 0 ? -graph.weights[slot] : graph.weights[slot];
         }
         is_in[v] = 1;
         mass += graph.mass[v];
@@ -169,7 +165,7 @@ TwoWayCut sweep_cut(const WeightedGraph& graph, const std::vector<double>& key) 
             best_size = size;
         }
     }
-    for (std::size_t k = 0; k < best_size; ++k) best.side[static_cast<std::size_t>(order[k])] = 0;
+    for (std::size_t k = 0; k < best_size; ++k) best.side[at(order[k])] = 0;
     return best;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -17,7 +19,7 @@ MergeQueue::MergeQueue(int groups) : slot_of_(static_cast<std::size_t>(groups), 
 
 void MergeQueue::place(std::size_t slot, const MergeCandidate& candidate) {
     heap_[slot] = candidate;
-    slot_of_[static_cast<std::size_t>(candidate.owner)] = static_cast<int>(slot);
+    slot_of_[at(candidate.owner)] = static_cast<int>(slot);
 }
 
 /// The slot itself if it has no children.
@@ -49,7 +51,7 @@ void MergeQueue::settle(std::size_t slot, const MergeCandidate& candidate) {
 }
 
 void MergeQueue::set(const MergeCandidate& candidate) {
-    int& slot = slot_of_[static_cast<std::size_t>(candidate.owner)];
+    int& slot = slot_of_[at(candidate.owner)];
     if (slot < 0) {
         slot = static_cast<int>(heap_.size());
         heap_.push_back(candidate);
@@ -58,7 +60,7 @@ void MergeQueue::set(const MergeCandidate& candidate) {
 }
 
 void MergeQueue::remove(int owner) {
-    const int slot = std::exchange(slot_of_[static_cast<std::size_t>(owner)], -1);
+    const int slot = std::exchange(slot_of_[at(owner)], -1);
     if (slot < 0) return;
     const MergeCandidate last = heap_.back();
     heap_.pop_back();

@@ -12,6 +12,7 @@
 #include "solvers/oversegmentation/fiedler_cut.hpp"
 #include "solvers/oversegmentation/weighted_graph.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 #include "src/mesh/dihedral_cost.hpp"
 
@@ -45,7 +46,7 @@ WeightedGraph noisy_face_graph(const FaceGeometry& geometry, const DualGraph& gr
         geometry.total_area > 0.0 ? smallest_share * geometry.total_area / graph.face_count : 1.0;
     std::vector<double> mass(static_cast<std::size_t>(graph.face_count));
     for (int f = 0; f < graph.face_count; ++f) {
-        mass[static_cast<std::size_t>(f)] = std::max(geometry.area[f], smallest_area);
+        mass[at(f)] = std::max(geometry.area[f], smallest_area);
     }
     return weighted_graph(std::move(mass), edges);
 }
@@ -89,14 +90,14 @@ std::vector<std::vector<int>> pieces_of_cut(const WeightedGraph& graph, const Re
 std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
     std::vector<Region> regions;
     const auto later = [&](int a, int b) {
-        const Region& x = regions[static_cast<std::size_t>(a)];
-        const Region& y = regions[static_cast<std::size_t>(b)];
+        const Region& x = regions[at(a)];
+        const Region& y = regions[at(b)];
         return std::tie(x.cut.value, x.nodes.front()) > std::tie(y.cut.value, y.nodes.front());
     };
     std::vector<std::vector<int>> pieces;
     const std::vector<int> component = connected_components(graph);
     for (int v = 0; v < graph.node_count(); ++v) {
-        const auto c = static_cast<std::size_t>(component[static_cast<std::size_t>(v)]);
+        const auto c = static_cast<std::size_t>(component[at(v)]);
         if (c == pieces.size()) pieces.emplace_back();
         pieces[c].push_back(v);
     }
@@ -114,8 +115,8 @@ std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
     }
     std::vector<int> region_of_node(graph.mass.size(), -1);
     for (; !next.empty(); next.pop()) {
-        for (const int v : regions[static_cast<std::size_t>(next.top())].nodes) {
-            region_of_node[static_cast<std::size_t>(v)] = next.top();
+        for (const int v : regions[at(next.top())].nodes) {
+            region_of_node[at(v)] = next.top();
         }
     }
     return region_of_node;
@@ -155,8 +156,7 @@ void merge_smallest(const WeightedGraph& graph, std::vector<int>& region_of_node
         int smallest = -1;
         for (int r = 0; r < count; ++r) {
             if (closest_neighbor(quotient, r) < 0) continue;
-            if (smallest < 0 || quotient.mass[static_cast<std::size_t>(r)] <
-                                    quotient.mass[static_cast<std::size_t>(smallest)]) {
+            if (smallest < 0 || quotient.mass[at(r)] < quotient.mass[at(smallest)]) {
                 smallest = r;
             }
         }
@@ -182,7 +182,7 @@ std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& grap
     const WeightedGraph super_graph = contracted_graph(faces, super_face, super_faces);
     std::vector<int> region = recursive_cuts(super_graph, options.patches);
     merge_smallest(super_graph, region, options.patches);
-    for (std::size_t f = 0; f < patch.size(); ++f) patch[f] = region[static_cast<std::size_t>(super_face[f])];
+    for (std::size_t f = 0; f < patch.size(); ++f) patch[f] = region[at(super_face[f])];
     renumber(patch);
     return patch;
 }

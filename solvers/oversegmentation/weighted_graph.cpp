@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -18,8 +20,7 @@ void sort_and_add_up(WeightedGraph& graph) {
         const int end = graph.offsets[v + 1];
         run.clear();
         for (int k = begin; k < end; ++k) {
-            run.emplace_back(graph.neighbors[static_cast<std::size_t>(k)],
-                             graph.weights[static_cast<std::size_t>(k)]);
+            run.emplace_back(graph.neighbors[at(k)], graph.weights[at(k)]);
         }
         const auto is_lower = [](const auto& x, const auto& y) { return x.first < y.first; };
         // Edges of a dual graph come in order, and a stable sort allocates even where there is nothing to do.
@@ -49,15 +50,15 @@ WeightedGraph weighted_graph(std::vector<double> mass, const std::vector<Weighte
     graph.offsets.assign(graph.mass.size() + 1, 0);
     for (const WeightedEdge& e : edges) {
         if (e.node_a == e.node_b) continue;
-        ++graph.offsets[static_cast<std::size_t>(e.node_a) + 1];
-        ++graph.offsets[static_cast<std::size_t>(e.node_b) + 1];
+        ++graph.offsets[at(e.node_a) + 1];
+        ++graph.offsets[at(e.node_b) + 1];
     }
     std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
     graph.neighbors.resize(static_cast<std::size_t>(graph.offsets.back()));
     graph.weights.resize(graph.neighbors.size());
     std::vector<int> next(graph.offsets.begin(), graph.offsets.end() - 1);
     const auto put = [&](int from, int to, double weight) {
-        const auto slot = static_cast<std::size_t>(next[static_cast<std::size_t>(from)]++);
+        const auto slot = static_cast<std::size_t>(next[at(from)]++);
         graph.neighbors[slot] = to;
         graph.weights[slot] = weight;
     };
@@ -76,14 +77,13 @@ WeightedGraph induced_subgraph(const WeightedGraph& graph, const std::vector<int
     part.offsets.reserve(nodes.size() + 1);
     part.offsets.push_back(0);
     std::vector<int> local(graph.mass.size(), -1);
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-        local[static_cast<std::size_t>(nodes[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < nodes.size(); ++k) local[at(nodes[k])] = static_cast<int>(k);
     for (const int node : nodes) {
         const auto v = static_cast<std::size_t>(node);
         part.mass.push_back(graph.mass[v]);
         for (auto k = static_cast<std::size_t>(graph.offsets[v]);
              k < static_cast<std::size_t>(graph.offsets[v + 1]); ++k) {
-            const int neighbor = local[static_cast<std::size_t>(graph.neighbors[k])];
+            const int neighbor = local[at(graph.neighbors[k])];
             if (neighbor < 0) continue;
             part.neighbors.push_back(neighbor);
             part.weights.push_back(graph.weights[k]);
@@ -97,7 +97,7 @@ WeightedGraph contracted_graph(const WeightedGraph& graph, const std::vector<int
     std::vector<double> mass(static_cast<std::size_t>(groups), 0.0);
     std::vector<WeightedEdge> edges;
     for (std::size_t v = 0; v < graph.mass.size(); ++v) {
-        mass[static_cast<std::size_t>(group[v])] += graph.mass[v];
+        mass[at(group[v])] += graph.mass[v];
         for (auto k = static_cast<std::size_t>(graph.offsets[v]);
              k < static_cast<std::size_t>(graph.offsets[v + 1]); ++k) {
             const auto u = static_cast<std::size_t>(graph.neighbors[k]);
@@ -112,16 +112,16 @@ std::vector<int> connected_components(const WeightedGraph& graph) {
     std::vector<int> stack;
     int count = 0;
     for (int seed = 0; seed < graph.node_count(); ++seed) {
-        if (component[static_cast<std::size_t>(seed)] >= 0) continue;
-        component[static_cast<std::size_t>(seed)] = count;
+        if (component[at(seed)] >= 0) continue;
+        component[at(seed)] = count;
         stack.assign(1, seed);
         while (!stack.empty()) {
             const auto v = static_cast<std::size_t>(stack.back());
             stack.pop_back();
             for (int k = graph.offsets[v]; k < graph.offsets[v + 1]; ++k) {
-                const int u = graph.neighbors[static_cast<std::size_t>(k)];
-                if (component[static_cast<std::size_t>(u)] >= 0) continue;
-                component[static_cast<std::size_t>(u)] = count;
+                const int u = graph.neighbors[at(k)];
+                if (component[at(u)] >= 0) continue;
+                component[at(u)] = count;
                 stack.push_back(u);
             }
         }

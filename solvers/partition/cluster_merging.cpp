@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -57,7 +59,7 @@ ClusterLinks cluster_links(const Comm& comm, const SparseRows& affinity, const s
     for (std::size_t r = 0; r < static_cast<std::size_t>(affinity.local_rows()); ++r) {
         for (auto k = static_cast<std::size_t>(affinity.offsets[r]);
              k < static_cast<std::size_t>(affinity.offsets[r + 1]); ++k) {
-            const int label = labels[static_cast<std::size_t>(affinity.columns[k])];
+            const int label = labels[at(affinity.columns[k])];
             row_links[r * width + static_cast<std::size_t>(label)] += affinity.values[k];
         }
     }
@@ -79,11 +81,10 @@ Eigen::MatrixXd area_shares(const std::vector<int>& labels, int clusters,
     std::vector<double> mesh_area(static_cast<std::size_t>(meshes), 0.0);
     for (std::size_t i = 0; i < labels.size(); ++i) {
         shares(labels[i], mesh_of[i]) += patch_area[i];
-        mesh_area[static_cast<std::size_t>(mesh_of[i])] += patch_area[i];
+        mesh_area[at(mesh_of[i])] += patch_area[i];
     }
     for (int m = 0; m < meshes; ++m) {
-        if (mesh_area[static_cast<std::size_t>(m)] > 0.0)
-            shares.col(m) /= mesh_area[static_cast<std::size_t>(m)];
+        if (mesh_area[at(m)] > 0.0) shares.col(m) /= mesh_area[at(m)];
     }
     return shares;
 }

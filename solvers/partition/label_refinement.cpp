@@ -6,6 +6,7 @@
 
 #include "solvers/boundaries/minimum_cut.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/dihedral_cost.hpp"
 
 namespace coseg {
@@ -87,8 +88,8 @@ void restore_withered_labels(const Eigen::VectorXd& piece_area, const std::vecto
 std::vector<WeightedEdge> piece_contacts(const DualGraph& graph, const std::vector<int>& piece_of_face) {
     std::vector<WeightedEdge> contacts;
     for (const DualEdge& e : graph.edges) {
-        const int a = piece_of_face[static_cast<std::size_t>(e.face_a)];
-        const int b = piece_of_face[static_cast<std::size_t>(e.face_b)];
+        const int a = piece_of_face[at(e.face_a)];
+        const int b = piece_of_face[at(e.face_b)];
         if (a != b) contacts.push_back({std::min(a, b), std::max(a, b), e.length * dihedral_cost(e)});
     }
     std::stable_sort(contacts.begin(), contacts.end(), [](const WeightedEdge& x, const WeightedEdge& y) {
@@ -110,8 +111,7 @@ double label_energy(const Eigen::MatrixXd& cost, const std::vector<WeightedEdge>
     double energy = 0.0;
     for (std::size_t p = 0; p < labels.size(); ++p) energy += cost(labels[p], static_cast<Eigen::Index>(p));
     for (const WeightedEdge& c : contacts) {
-        const bool is_cut =
-            labels[static_cast<std::size_t>(c.node_a)] != labels[static_cast<std::size_t>(c.node_b)];
+        const bool is_cut = labels[at(c.node_a)] != labels[at(c.node_b)];
         if (is_cut) energy += smoothness * c.weight;
     }
     return energy;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "solvers/partition/cluster_merging.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -100,11 +101,11 @@ std::vector<int> rows_matched(const SparseRows& links, const std::vector<int>& l
         std::fill(weight.begin(), weight.end(), 0.0);
         for (auto k = static_cast<std::size_t>(links.offsets[r]);
              k < static_cast<std::size_t>(links.offsets[r + 1]); ++k) {
-            const int part = labels[static_cast<std::size_t>(links.columns[k])];
-            weight[static_cast<std::size_t>(part)] += links.values[k];
+            const int part = labels[at(links.columns[k])];
+            weight[at(part)] += links.values[k];
         }
         const auto heaviest = std::max_element(weight.begin(), weight.end()) - weight.begin();
-        const int own = labels[static_cast<std::size_t>(links.rows.begin) + r];
+        const int own = labels[at(links.rows.begin) + r];
         matched.push_back(heaviest == own ? 1 : 0);
     }
     return matched;
@@ -117,8 +118,7 @@ double boundary_concavity(const std::vector<GlobalPatchNeighbors>& neighbors,
     double length = 0.0;
     double concave = 0.0;
     for (const GlobalPatchNeighbors& pair : neighbors) {
-        if (labels[static_cast<std::size_t>(pair.patch_a)] == labels[static_cast<std::size_t>(pair.patch_b)])
-            continue;
+        if (labels[at(pair.patch_a)] == labels[at(pair.patch_b)]) continue;
         length += pair.boundary_length;
         concave += pair.boundary_length * pair.concavity;
     }
@@ -130,7 +130,7 @@ std::vector<double> mean_area_shares(const std::vector<int>& labels, int parts,
     const Eigen::MatrixXd of_mesh = area_shares(labels, parts, patch_area, mesh_of);
     std::vector<double> shares(static_cast<std::size_t>(parts), 0.0);
     for (int m = 0; m < of_mesh.cols(); ++m) {
-        for (int p = 0; p < parts; ++p) shares[static_cast<std::size_t>(p)] += of_mesh(p, m);
+        for (int p = 0; p < parts; ++p) shares[at(p)] += of_mesh(p, m);
     }
     for (double& share : shares) share /= static_cast<double>(of_mesh.cols());
     return shares;
@@ -152,8 +152,7 @@ double boundary_crease(const std::vector<GlobalPatchNeighbors>& neighbors, const
                        int meshes) {
     double cost = 0.0;
     for (const GlobalPatchNeighbors& pair : neighbors) {
-        if (labels[static_cast<std::size_t>(pair.patch_a)] == labels[static_cast<std::size_t>(pair.patch_b)])
-            continue;
+        if (labels[at(pair.patch_a)] == labels[at(pair.patch_b)]) continue;
         const double flat = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
         cost += pair.boundary_length * flat * flat;
     }
@@ -189,8 +188,8 @@ double link_consistency(const Comm& comm, const SparseRows& links, const std::ve
     std::vector<double> area(static_cast<std::size_t>(parts), 0.0);
     std::vector<double> found(static_cast<std::size_t>(parts), 0.0);
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        area[static_cast<std::size_t>(labels[i])] += patch_area[i];
-        if (matched[i] == 1) found[static_cast<std::size_t>(labels[i])] += patch_area[i];
+        area[at(labels[i])] += patch_area[i];
+        if (matched[i] == 1) found[at(labels[i])] += patch_area[i];
     }
     double sum = 0.0;
     for (std::size_t p = 0; p < area.size(); ++p) sum += area[p] > 0.0 ? found[p] / area[p] : 0.0;
@@ -262,14 +261,14 @@ std::size_t best_partition(std::span<const PartitionTerms> partitions, std::span
     add(weights.concavity, [](const PartitionTerms& p) { return p.concavity; });
     add(weights.presence, [](const PartitionTerms& p) { return p.presence; });
     add(weights.link_consistency, [](const PartitionTerms& p) { return p.link_consistency; });
-    return list[static_cast<std::size_t>(std::max_element(merit.begin(), merit.end()) - merit.begin())];
+    return list[at(std::max_element(merit.begin(), merit.end()) - merit.begin())];
 }
 
 std::vector<int> canonical_labels(const std::vector<int>& labels, int parts,
                                   const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
     const std::vector<double> shares = mean_area_shares(labels, parts, patch_area, mesh_of);
     std::vector<std::size_t> lowest(shares.size(), labels.size());
-    for (std::size_t i = labels.size(); i-- > 0;) lowest[static_cast<std::size_t>(labels[i])] = i;
+    for (std::size_t i = labels.size(); i-- > 0;) lowest[at(labels[i])] = i;
     std::vector<int> order(shares.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -282,10 +281,9 @@ std::vector<int> canonical_labels(const std::vector<int>& labels, int parts,
         return lowest[x] != lowest[y] ? lowest[x] < lowest[y] : a < b;
     });
     std::vector<int> number(shares.size());
-    for (std::size_t k = 0; k < order.size(); ++k)
-        number[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < order.size(); ++k) number[at(order[k])] = static_cast<int>(k);
     std::vector<int> renamed(labels.size());
-    for (std::size_t i = 0; i < labels.size(); ++i) renamed[i] = number[static_cast<std::size_t>(labels[i])];
+    for (std::size_t i = 0; i < labels.size(); ++i) renamed[i] = number[at(labels[i])];
     return renamed;
 }
 

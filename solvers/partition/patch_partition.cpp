@@ -10,6 +10,7 @@
 #include "solvers/affinity/graph_components.hpp"
 #include "solvers/spectral/normalized_cut.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -122,7 +123,7 @@ SparseRows graph_of(const CutTerms& terms, const CutInput& input, GraphWeights w
 std::vector<int> cluster_sizes(const std::vector<int>& labels, int clusters) {
     std::vector<int> sizes(static_cast<std::size_t>(clusters), 0);
     for (const int label : labels) {
-        if (label >= 0) ++sizes[static_cast<std::size_t>(label)];
+        if (label >= 0) ++sizes[at(label)];
     }
     return sizes;
 }
@@ -176,13 +177,13 @@ PartitionTerms terms_of(const GraphCut& cut, const std::vector<int>& labels, int
 }
 
 int cluster_count(const GraphCut& cut, int index) {
-    const int asked = cut.options.starts[static_cast<std::size_t>(index)].clusters;
+    const int asked = cut.options.starts[at(index)].clusters;
     return std::min(asked, static_cast<int>(cut.embedding.eigenvalues.size()));
 }
 
 /// The outcome of a start but for its terms.
 LabelledOutcome run_start(const GraphCut& cut, int index, const Clustering& clusters) {
-    const CutStart& start = cut.options.starts[static_cast<std::size_t>(index)];
+    const CutStart& start = cut.options.starts[at(index)];
     LabelledOutcome result;
     result.index = index;
     result.outcome.start = start;
@@ -192,8 +193,7 @@ LabelledOutcome run_start(const GraphCut& cut, int index, const Clustering& clus
                                       cut.embedding.eigenvalues.begin() + clusters.count);
     const std::vector<int> part_of_cluster =
         merge_clusters(clusters.links, clusters.sizes, cut.options.parts, start.merging);
-    for (const int cluster : clusters.labels)
-        result.labels.push_back(part_of_cluster[static_cast<std::size_t>(cluster)]);
+    for (const int cluster : clusters.labels) result.labels.push_back(part_of_cluster[at(cluster)]);
     result.outcome.parts_found = 1 + *std::max_element(result.labels.begin(), result.labels.end());
     // Numbered alike, partitions that are the same have the same terms to the last bit.
     result.labels =
@@ -215,7 +215,7 @@ std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& start
     std::vector<std::vector<int>> groups;
     for (std::size_t k = 0; k < starts.size(); ++k) {
         const auto same = std::find_if(groups.begin(), groups.end(), [&](const std::vector<int>& group) {
-            return starts[static_cast<std::size_t>(group.front())].graph == starts[k].graph;
+            return starts[at(group.front())].graph == starts[k].graph;
         });
         if (same == groups.end()) {
             groups.push_back({static_cast<int>(k)});
@@ -228,10 +228,10 @@ std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& start
 
 std::vector<LabelledOutcome> run_graph(const Comm& group, const CutInput& input, const CutOptions& options,
                                        const CutTerms& terms, const std::vector<int>& starts) {
-    const CutStart& first = options.starts[static_cast<std::size_t>(starts.front())];
+    const CutStart& first = options.starts[at(starts.front())];
     const SparseRows graph = graph_of(terms, input, first.graph, options.drop_below);
     int count = options.parts;
-    for (const int k : starts) count = std::max(count, options.starts[static_cast<std::size_t>(k)].clusters);
+    for (const int k : starts) count = std::max(count, options.starts[at(k)].clusters);
     const SpectralEmbedding embedding =
         spectral_embedding(group, graph, options.parts, count, options.spectral, input.mesh_of);
     const GraphCut cut{group, input, options, terms, graph, embedding};
@@ -288,9 +288,9 @@ std::vector<LabelledOutcome> share_outcomes(const Comm& comm, const std::vector<
     auto value = values.cbegin();
     for (std::size_t k = 0; k < all.size(); ++k) {
         const int index = *number++;
-        LabelledOutcome& r = all[static_cast<std::size_t>(index)];
+        LabelledOutcome& r = all[at(index)];
         r.index = index;
-        r.outcome.start = options.starts[static_cast<std::size_t>(index)];
+        r.outcome.start = options.starts[at(index)];
         r.outcome.parts_found = *number++;
         r.outcome.set_aside = *number++;
         r.outcome.unreached = *number++;
@@ -326,7 +326,7 @@ std::vector<LabelledOutcome> run_together(const Comm& comm, const CutInput& inpu
     std::vector<LabelledOutcome> all(options.starts.size());
     for (const std::vector<int>& starts : starts_by_graph(options.starts)) {
         for (LabelledOutcome& r : run_graph(comm, input, options, terms, starts)) {
-            all[static_cast<std::size_t>(r.index)] = std::move(r);
+            all[at(r.index)] = std::move(r);
         }
     }
     return all;
@@ -356,7 +356,7 @@ std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::
                               int parts) {
     std::vector<std::vector<int>> meshes(static_cast<std::size_t>(parts));
     for (std::size_t i = 0; i < mesh_of.size(); ++i) {
-        meshes[static_cast<std::size_t>(part_of_patch[i])].push_back(mesh_of[i]);
+        meshes[at(part_of_patch[i])].push_back(mesh_of[i]);
     }
     std::vector<int> counts;
     for (std::vector<int>& of_part : meshes) {
@@ -434,7 +434,7 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
     std::vector<LabelledOutcome> outcomes =
         one_rank ? run_dealt(comm, self, input, options, terms) : run_together(comm, input, options, terms);
     result.chosen = static_cast<int>(choose(outcomes, input, options.choice));
-    result.part_of_patch = outcomes[static_cast<std::size_t>(result.chosen)].labels;
+    result.part_of_patch = outcomes[at(result.chosen)].labels;
     for (LabelledOutcome& r : outcomes) result.starts.push_back(std::move(r.outcome));
     result.frame = terms.frame;
     describe_parts(input.mesh_of, input.patch_area, options.parts, result);

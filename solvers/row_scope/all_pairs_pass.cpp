@@ -10,6 +10,7 @@
 #include "solvers/numeric/pair_score_kernel.hpp"
 #include "solvers/row_scope/pass_clock.hpp"
 #include "solvers/subspace/coefficients.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -132,7 +133,7 @@ void AllPairsPass::start(const WorkingSet& working, const std::vector<double>& r
 void AllPairsPass::set_column(Tile& tile, int column) const {
     double errors2 = 0.0;
     for (int h = 0; h < stack_.features; ++h) {
-        const int from = stack_.offset[static_cast<std::size_t>(h)];
+        const int from = stack_.offset[at(h)];
         const int depth = stack_.rows_of(h);
         const int group = column / group_columns;
         float* dual = tile.duals.data() + static_cast<std::ptrdiff_t>(from) * tile.columns() +
@@ -143,13 +144,12 @@ void AllPairsPass::set_column(Tile& tile, int column) const {
         for (int k = 0; k < depth; ++k) u[k] = 2.0 * (x[k] - z[k]);
         for (int k = 0; k < depth; ++k)
             dual[static_cast<std::ptrdiff_t>(k) * group_columns] = static_cast<float>(u[k]);
-        const double error =
-            rounding_ * std::sqrt(inner_product(u, u, depth)) * largest_norm_[static_cast<std::size_t>(h)];
+        const double error = rounding_ * std::sqrt(inner_product(u, u, depth)) * largest_norm_[at(h)];
         errors2 += error * error;
-        tile.errors[static_cast<std::size_t>(h * tile.columns() + column)] = static_cast<float>(error);
+        tile.errors[at(h * tile.columns() + column)] = static_cast<float>(error);
     }
     const double enough = problem_.alpha + doubtful * std::sqrt(errors2);
-    tile.doubtful_square[static_cast<std::size_t>(column)] = static_cast<float>(enough * enough);
+    tile.doubtful_square[at(column)] = static_cast<float>(enough * enough);
 }
 
 void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Tile& tile) const {
@@ -172,7 +172,7 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
     tile.doubtful_square.resize(columns);
     tile.above.resize(columns);
     for (int c = 0; c < tile.width; ++c) {
-        const RowScopeColumn& fit = tile.fits[static_cast<std::size_t>(c)];
+        const RowScopeColumn& fit = tile.fits[at(c)];
         reconstruct(stack_, fit, fit.weights.data(), tile.reconstruction.col(c).data());
         set_column(tile, c);
     }
@@ -201,36 +201,32 @@ void AllPairsPass::keep(const Tile& tile, int column, int row, double norm) {
         column_best_.data() + static_cast<std::int64_t>(tile.first_local + column) * kept;
     insert(row_best, {norm, tile.first + column});
     insert(column_best, {norm, row});
-    row_least_[static_cast<std::size_t>(row)] =
-        static_cast<float>(row_best[kept - 1].score * row_best[kept - 1].score);
+    row_least_[at(row)] = static_cast<float>(row_best[kept - 1].score * row_best[kept - 1].score);
 }
 
 /// W = 0: nothing is in the working set, and no bound is sought but that of W = 0.
 void AllPairsPass::look_first(Tile& tile, int panel) {
     const int begin = panel * panel_rows;
     const auto least_of = [&](int c) {
-        return column_best_[static_cast<std::size_t>(tile.first_local + c) * kept + kept - 1].score;
+        return column_best_[at(tile.first_local + c) * kept + kept - 1].score;
     };
     for (int c = 0; c < tile.width; ++c) {
         // Rounded down, so that what the exact comparison keeps is looked at.
         const double least = least_of(c);
-        tile.least_squares[static_cast<std::size_t>(c)] =
-            static_cast<float>(least * least * (1.0 - 4.0 * single_rounding));
+        tile.least_squares[at(c)] = static_cast<float>(least * least * (1.0 - 4.0 * single_rounding));
     }
     find_above(tile.squares.data(), tile.width, limit2_, row_least_.data() + begin, tile.least_squares.data(),
                tile.above.data());
     for (int c = 0; c < tile.width; ++c) {
         const float* squares = tile.squares_of(c);
-        for (std::uint64_t rows = tile.above[static_cast<std::size_t>(c)]; rows != 0; rows &= rows - 1) {
+        for (std::uint64_t rows = tile.above[at(c)]; rows != 0; rows &= rows - 1) {
             const int r = std::countr_zero(rows);
             const int i = begin + r;
             if (i == tile.first + c) continue;
             // The first of all violations is kept, so none is missed by what find_above leaves out.
             any_violation_ = true;
             const double least = least_of(c);
-            if (squares[r] < row_least_[static_cast<std::size_t>(i)] &&
-                static_cast<double>(squares[r]) < least * least)
-                continue;
+            if (squares[r] < row_least_[at(i)] && static_cast<double>(squares[r]) < least * least) continue;
             keep(tile, c, i, std::sqrt(static_cast<double>(squares[r])));
         }
     }
@@ -262,9 +258,9 @@ void AllPairsPass::scan(Tile& tile, int panel, PaperDualBound& bound) {
     const int begin = panel * panel_rows;
     find_above(tile.squares.data(), tile.width, limit2_, tile.above.data());
     for (int c = 0; c < tile.width; ++c) {
-        const std::vector<int>& working = tile.fits[static_cast<std::size_t>(c)].rows;
-        std::size_t& next = tile.next_working[static_cast<std::size_t>(c)];
-        for (std::uint64_t rows = tile.above[static_cast<std::size_t>(c)]; rows != 0; rows &= rows - 1) {
+        const std::vector<int>& working = tile.fits[at(c)].rows;
+        std::size_t& next = tile.next_working[at(c)];
+        for (std::uint64_t rows = tile.above[at(c)]; rows != 0; rows &= rows - 1) {
             const int i = begin + std::countr_zero(rows);
             if (i == tile.first + c) continue;
             while (next < working.size() && working[next] < i) ++next;
@@ -276,7 +272,7 @@ void AllPairsPass::scan(Tile& tile, int panel, PaperDualBound& bound) {
 
 void AllPairsPass::check_working_pairs(const Tile& tile, PaperDualBound& bound) {
     for (int c = 0; c < tile.width; ++c) {
-        for (const int row : tile.fits[static_cast<std::size_t>(c)].rows) {
+        for (const int row : tile.fits[at(c)].rows) {
             exact_scores(tile, c, row);
             bound.check_pair(c, row, pair_scores_.data(), stack_.inner_product_error());
         }
@@ -336,8 +332,7 @@ PassFindings AllPairsPass::collect(const WorkingSet& working, double lower_bound
     for (std::size_t at = 0; at < row_best_.size(); ++at) {
         const std::int64_t column = row_best_[at].place;
         if (!working.columns.contains(column)) continue;
-        findings.entering[static_cast<std::size_t>(column - working.columns.begin)].push_back(
-            static_cast<int>(at / kept));
+        findings.entering[at(column - working.columns.begin)].push_back(static_cast<int>(at / kept));
     }
     std::int64_t pairs = 0;
     for (std::size_t c = 0; c < findings.entering.size(); ++c) {

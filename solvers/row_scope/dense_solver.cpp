@@ -14,6 +14,7 @@
 #include "solvers/subspace/group_shrinkage.hpp"
 #include "solvers/subspace/spectral_projected_gradient.hpp"
 #include "solvers/subspace/stopping_rule.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -114,9 +115,9 @@ void DenseModel::measure_tile(std::int64_t begin, std::int64_t end) {
     const int rows = stack_.dimension;
     trial_.residual.middleCols(begin, width) = -stack_.columns.middleCols(columns_.begin + begin, width);
     for (int h = 0; h < stack_.features; ++h) {
-        const Eigen::MatrixXd& weights = trial_.weights[static_cast<std::size_t>(h)];
+        const Eigen::MatrixXd& weights = trial_.weights[at(h)];
         multiply(stack_.rows_of(h), width, n, stack_.feature(h), rows, weights.data() + begin * n, n, 1.0,
-                 trial_.residual.data() + begin * rows + stack_.offset[static_cast<std::size_t>(h)], rows);
+                 trial_.residual.data() + begin * rows + stack_.offset[at(h)], rows);
         if (problem_.lambda == 0.0) continue;
         for (int i = 0; i < n; ++i) {
             double sum = 0.0;
@@ -184,15 +185,14 @@ void DenseModel::compute_gradient() {
     const int n = stack_.size;
     const int rows = stack_.dimension;
     for (int h = 0; h < stack_.features; ++h) {
-        Eigen::MatrixXd& gradient = gradient_[static_cast<std::size_t>(h)];
+        Eigen::MatrixXd& gradient = gradient_[at(h)];
         const Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>> sums(
             current_.row_sums.data() + h, n, Eigen::InnerStride<>(stack_.features));
         for (std::int64_t begin = 0; begin < owned(); begin += coefficient_tile) {
             const int width = static_cast<int>(std::min(coefficient_tile, owned() - begin));
-            multiply_transposed(
-                n, width, stack_.rows_of(h), stack_.feature(h), rows,
-                current_.residual.data() + begin * rows + stack_.offset[static_cast<std::size_t>(h)], rows,
-                0.0, gradient.data() + begin * n, n);
+            multiply_transposed(n, width, stack_.rows_of(h), stack_.feature(h), rows,
+                                current_.residual.data() + begin * rows + stack_.offset[at(h)], rows, 0.0,
+                                gradient.data() + begin * n, n);
         }
         for (std::int64_t c = 0; c < owned(); ++c) {
             gradient.col(c) = 2.0 * gradient.col(c) + 2.0 * problem_.lambda * sums;
@@ -214,7 +214,7 @@ double DenseModel::lower_bound() {
             for (int i = 0; i < stack_.size; ++i) {
                 if (i == first + c) continue;
                 for (std::size_t h = 0; h < features; ++h) {
-                    const double row_sum = current_.row_sums[static_cast<std::size_t>(i) * features + h];
+                    const double row_sum = current_.row_sums[at(i) * features + h];
                     scores[h] = 2.0 * problem_.lambda * row_sum - gradient_[h](i, begin + c);
                 }
                 bound.check_pair(c, i, scores.data(), 2.0 * stack_.inner_product_error());

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "solvers/subspace/coefficients.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -27,13 +28,13 @@ RowExchange::RowExchange(const Comm& comm, std::int64_t size, int features, cons
     std::vector<int> owner(rows.size());
     for (std::size_t e = 0; e < rows.size(); ++e) {
         owner[e] = block_owner(size, comm.size(), rows[e], coefficient_tile);
-        ++pairs_to[static_cast<std::size_t>(owner[e])];
+        ++pairs_to[at(owner[e])];
     }
     std::vector<int> next = offsets_of(pairs_to);
     std::vector<int> sent_rows(rows.size());
     send_place_.resize(rows.size());
     for (std::size_t e = 0; e < rows.size(); ++e) {
-        send_place_[e] = static_cast<std::size_t>(next[static_cast<std::size_t>(owner[e])]++);
+        send_place_[e] = static_cast<std::size_t>(next[at(owner[e])]++);
         sent_rows[send_place_[e]] = rows[e];
     }
     std::vector<int> pairs_from(ranks, 0);
@@ -53,12 +54,12 @@ RowExchange::RowExchange(const Comm& comm, std::int64_t size, int features, cons
                   pairs_from.data(), from_offsets.data(), MPI_INT, comm.raw());
     // Ranks own ascending columns and send column by column: a stable sort by row leaves columns ascending.
     row_begin_.assign(static_cast<std::size_t>(owned_.size()) + 1, 0);
-    for (const int row : received_rows) ++row_begin_[static_cast<std::size_t>(row - owned_.begin) + 1];
+    for (const int row : received_rows) ++row_begin_[at(row - owned_.begin) + 1];
     std::partial_sum(row_begin_.begin(), row_begin_.end(), row_begin_.begin());
     std::vector<std::size_t> place(row_begin_.begin(), row_begin_.end() - 1);
     receive_place_.resize(received);
     for (std::size_t e = 0; e < received; ++e) {
-        receive_place_[place[static_cast<std::size_t>(received_rows[e] - owned_.begin)]++] = e;
+        receive_place_[place[at(received_rows[e] - owned_.begin)]++] = e;
     }
     for (const int count : pairs_to) send_counts_.push_back(count * features);
     for (const int count : pairs_from) receive_counts_.push_back(count * features);

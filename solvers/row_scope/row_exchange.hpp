@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/parallel/block_range.hpp"
 #include "src/parallel/comm.hpp"
 
@@ -21,8 +22,8 @@ class RowExchange {
     /// The values of owned row r (counted from owned_rows().begin) in what to_rows gives, H a pair, ascending in their
     /// columns.
     [[nodiscard]] std::span<double> row(std::vector<double>& by_row, std::int64_t r) const {
-        const std::size_t begin = row_begin_[static_cast<std::size_t>(r)] * features_;
-        const std::size_t end = row_begin_[static_cast<std::size_t>(r) + 1] * features_;
+        const std::size_t begin = row_begin_[at(r)] * features_;
+        const std::size_t end = row_begin_[at(r) + 1] * features_;
         return std::span(by_row).subspan(begin, end - begin);
     }
 

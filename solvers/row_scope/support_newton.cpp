@@ -6,6 +6,7 @@
 #include <span>
 
 #include "solvers/subspace/tile_sums.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -70,7 +71,7 @@ void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weig
         const auto count = static_cast<Eigen::Index>(block.places.size());
         Eigen::VectorXd curvature(count);
         for (Eigen::Index k = 0; k < count; ++k) {
-            const std::size_t at = block.places[static_cast<std::size_t>(k)];
+            const std::size_t at = block.places[at(k)];
             const double along = weights[at] * inverse_norm_[at / features];
             curvature[k] = 2.0 * problem_.lambda + added +
                            problem_.alpha * inverse_norm_[at / features] * std::max(1.0 - along * along, 0.0);
@@ -92,9 +93,7 @@ Eigen::MatrixXd SupportNewton::gram_of(std::size_t c, std::size_t h,
     const auto features = static_cast<std::size_t>(stack_.features);
     const RowScopeColumn& fit = fits_[c];
     const auto count = static_cast<Eigen::Index>(places.size());
-    const auto pair = [&](Eigen::Index k) {
-        return (places[static_cast<std::size_t>(k)] - offset_[c]) / features;
-    };
+    const auto pair = [&](Eigen::Index k) { return (places[at(k)] - offset_[c]) / features; };
     Eigen::MatrixXd gram(count, count);
     if (!fit.gram.empty()) {
         for (Eigen::Index k = 0; k < count; ++k) {
@@ -128,11 +127,9 @@ void SupportNewton::apply_fit(const std::vector<double>& vector, std::vector<dou
         }
         for (const Block* block = first; block != first + features; ++block) {
             Eigen::VectorXd part(static_cast<Eigen::Index>(block->places.size()));
-            for (Eigen::Index k = 0; k < part.size(); ++k)
-                part[k] = vector[block->places[static_cast<std::size_t>(k)]];
+            for (Eigen::Index k = 0; k < part.size(); ++k) part[k] = vector[block->places[at(k)]];
             const Eigen::VectorXd product = block->hessian * part;
-            for (Eigen::Index k = 0; k < part.size(); ++k)
-                result[block->places[static_cast<std::size_t>(k)]] = product[k];
+            for (Eigen::Index k = 0; k < part.size(); ++k) result[block->places[at(k)]] = product[k];
         }
     }
 }
@@ -159,15 +156,13 @@ void SupportNewton::precondition(const std::vector<double>& vector, std::vector<
     std::fill(result.begin(), result.end(), 0.0);
     for (const Block& block : blocks_) {
         Eigen::VectorXd part(static_cast<Eigen::Index>(block.places.size()));
-        for (Eigen::Index k = 0; k < part.size(); ++k)
-            part[k] = vector[block.places[static_cast<std::size_t>(k)]];
+        for (Eigen::Index k = 0; k < part.size(); ++k) part[k] = vector[block.places[at(k)]];
         if (block.hessian.size() > 0) {
             block.factor.solveInPlace(part);
         } else {
             part.array() *= block.inverse_diagonal.array();
         }
-        for (Eigen::Index k = 0; k < part.size(); ++k)
-            result[block.places[static_cast<std::size_t>(k)]] = part[k];
+        for (Eigen::Index k = 0; k < part.size(); ++k) result[block.places[at(k)]] = part[k];
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "solvers/spectral/spectral_embedding.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 
 namespace coseg {
@@ -66,7 +67,7 @@ Eigen::MatrixXd diffusion_map(const Comm& self, const SparseRows& affinity, cons
     const auto count = static_cast<Eigen::Index>(embedding.eigenvalues.size());
     Eigen::MatrixXd map = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(count - 1, 1), affinity.size);
     for (Eigen::Index c = 1; c < count; ++c) {
-        const double stretch = std::pow(embedding.eigenvalues[static_cast<std::size_t>(c)], options.time);
+        const double stretch = std::pow(embedding.eigenvalues[at(c)], options.time);
         for (std::size_t r = 0; r < embedding.rows.size(); ++r)
             map(c - 1, embedding.rows[r]) = stretch * embedding.coordinates(static_cast<Eigen::Index>(r), c);
     }
@@ -85,7 +86,7 @@ bool assign(const Eigen::MatrixXd& points, const Eigen::MatrixXd& centres, Clust
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
         Eigen::Index nearest = 0;
         clustering.squares += (centres.colwise() - points.col(i)).colwise().squaredNorm().minCoeff(&nearest);
-        int& label = clustering.label[static_cast<std::size_t>(i)];
+        int& label = clustering.label[at(i)];
         changed = changed || label != static_cast<int>(nearest);
         label = static_cast<int>(nearest);
     }
@@ -116,7 +117,7 @@ Clustering one_start(const Eigen::MatrixXd& points, int parts, std::uint64_t see
         Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.rows(), parts);
         Eigen::VectorXd counts = Eigen::VectorXd::Zero(parts);
         for (Eigen::Index i = 0; i < points.cols(); ++i) {
-            const int k = clustering.label[static_cast<std::size_t>(i)];
+            const int k = clustering.label[at(i)];
             sums.col(k) += points.col(i);
             counts[k] += 1.0;
         }

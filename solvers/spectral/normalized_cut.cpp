@@ -3,6 +3,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -39,7 +41,7 @@ std::vector<int> nearest_axes(const MatrixXd& points, const MatrixXd& rotation) 
     for (Index r = 0; r < points.rows(); ++r) {
         Index axis = 0;
         turned.row(r).maxCoeff(&axis);
-        labels[static_cast<std::size_t>(r)] = static_cast<int>(axis);
+        labels[at(r)] = static_cast<int>(axis);
     }
     return labels;
 }
@@ -48,7 +50,7 @@ std::vector<int> nearest_axes(const MatrixXd& points, const MatrixXd& rotation) 
 MatrixXd best_rotation(const MatrixXd& points, const std::vector<int>& labels) {
     const Index clusters = points.cols();
     MatrixXd sums = MatrixXd::Zero(clusters, clusters);
-    for (Index r = 0; r < points.rows(); ++r) sums.row(labels[static_cast<std::size_t>(r)]) += points.row(r);
+    for (Index r = 0; r < points.rows(); ++r) sums.row(labels[at(r)]) += points.row(r);
     const Eigen::JacobiSVD<MatrixXd> svd(sums, Eigen::ComputeFullU | Eigen::ComputeFullV);
     return svd.matrixV() * svd.matrixU().transpose();
 }
@@ -72,8 +74,7 @@ std::vector<int> discretize(const SpectralEmbedding& embedding, int clusters) {
 std::vector<int> cut_embedding(const SpectralEmbedding& embedding, int clusters, std::int64_t size) {
     const std::vector<int> of_row = discretize(embedding, clusters);
     std::vector<int> labels(static_cast<std::size_t>(size), -1);
-    for (std::size_t r = 0; r < of_row.size(); ++r)
-        labels[static_cast<std::size_t>(embedding.rows[r])] = of_row[r];
+    for (std::size_t r = 0; r < of_row.size(); ++r) labels[at(embedding.rows[r])] = of_row[r];
     return labels;
 }
 

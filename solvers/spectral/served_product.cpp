@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -47,7 +49,7 @@ ServedProduct::ServedProduct(const Comm& comm, const SparseRows& matrix, GroupBa
 double ServedProduct::add_products(std::size_t row, std::int64_t skip, double sum) const {
     for (auto k = static_cast<std::size_t>(matrix_.offsets[row] + skip);
          k < static_cast<std::size_t>(matrix_.offsets[row + 1]); ++k) {
-        sum += matrix_.values[k] * message_[static_cast<std::size_t>(matrix_.columns[k])];
+        sum += matrix_.values[k] * message_[at(matrix_.columns[k])];
     }
     return sum;
 }
@@ -65,8 +67,7 @@ void ServedProduct::multiply_four_rows(std::size_t first) {
         shared = std::min(shared, matrix_.offsets[first + i + 1] - begin);
     }
     for (std::int64_t k = 0; k < shared; ++k) {
-        for (std::size_t i = 0; i < sums.size(); ++i)
-            sums[i] += values[i][k] * message_[static_cast<std::size_t>(columns[i][k])];
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i][k] * message_[at(columns[i][k])];
     }
     for (std::size_t i = 0; i < sums.size(); ++i)
         rows_local_[first + i] = add_products(first + i, shared, sums[i]);
@@ -82,10 +83,9 @@ void ServedProduct::subtract_balance(const double* x, double* y) {
     if (group_sums_.empty()) return;
     std::fill(group_sums_.begin(), group_sums_.end(), 0.0);
     for (std::size_t i = 0; i < balance_.group.size(); ++i)
-        group_sums_[static_cast<std::size_t>(balance_.group[i])] += balance_.indicator[i] * x[i];
+        group_sums_[at(balance_.group[i])] += balance_.indicator[i] * x[i];
     for (std::size_t i = 0; i < balance_.group.size(); ++i)
-        y[i] -= balance_.weight * balance_.indicator[i] *
-                group_sums_[static_cast<std::size_t>(balance_.group[i])];
+        y[i] -= balance_.weight * balance_.indicator[i] * group_sums_[at(balance_.group[i])];
 }
 
 void ServedProduct::multiply(const double* x, double* y) {

@@ -11,6 +11,7 @@
 #include "solvers/petsc/petsc_handle.hpp"
 #include "solvers/spectral/served_product.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 
 namespace coseg {
@@ -41,7 +42,7 @@ struct CutOperator {
 SparseRows diagonal_rows(const SparseRows& like, const std::vector<double>& diagonal) {
     std::vector<SparseEntry> entries;
     for (auto i = like.rows.begin; i < like.rows.end; ++i) {
-        const double value = diagonal[static_cast<std::size_t>(i)];
+        const double value = diagonal[at(i)];
         if (value != 0.0) entries.push_back({static_cast<int>(i), static_cast<int>(i), value});
     }
     return rows_from_entries(like.size, like.rows, std::move(entries));
@@ -56,10 +57,10 @@ SparseRows plus_diagonal(const SparseRows& matrix, const std::vector<double>& di
 /// v_ij -> v_ij (q_i q_j): the product in parentheses keeps the matrix symmetric to the last bit.
 void scale_both_sides(SparseRows& matrix, const std::vector<double>& q) {
     for (std::size_t r = 0; r < static_cast<std::size_t>(matrix.local_rows()); ++r) {
-        const double row_factor = q[static_cast<std::size_t>(matrix.rows.begin) + r];
+        const double row_factor = q[at(matrix.rows.begin) + r];
         for (auto k = static_cast<std::size_t>(matrix.offsets[r]);
              k < static_cast<std::size_t>(matrix.offsets[r + 1]); ++k) {
-            matrix.values[k] *= row_factor * q[static_cast<std::size_t>(matrix.columns[k])];
+            matrix.values[k] *= row_factor * q[at(matrix.columns[k])];
         }
     }
 }
@@ -113,8 +114,8 @@ EigenPairs component_eigenpairs(const CutOperator& op) {
     for (const std::vector<int>& members : op.components) {
         Eigen::VectorXd vector = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(op.degree.size()));
         double squares = 0.0;
-        for (const int i : members) squares += op.degree[static_cast<std::size_t>(i)];
-        for (const int i : members) vector(i) = std::sqrt(op.degree[static_cast<std::size_t>(i)] / squares);
+        for (const int i : members) squares += op.degree[at(i)];
+        for (const int i : members) vector(i) = std::sqrt(op.degree[at(i)] / squares);
         pairs.append(1.0, vector);
     }
     return pairs;
@@ -124,8 +125,8 @@ EigenPairs component_eigenpairs(const CutOperator& op) {
 std::vector<double> mesh_indicators(const CutOperator& op, const std::vector<int>& mesh_of) {
     std::vector<double> squares(
         static_cast<std::size_t>(*std::max_element(mesh_of.begin(), mesh_of.end())) + 1, 0.0);
-    const auto mesh = [&](int i) { return static_cast<std::size_t>(mesh_of[static_cast<std::size_t>(i)]); };
-    for (const int i : op.rows) squares[mesh(i)] += op.degree[static_cast<std::size_t>(i)];
+    const auto mesh = [&](int i) { return static_cast<std::size_t>(mesh_of[at(i)]); };
+    for (const int i : op.rows) squares[mesh(i)] += op.degree[at(i)];
     std::vector<double> entries(op.degree.size(), 0.0);
     for (const int i : op.rows) {
         const auto k = static_cast<std::size_t>(i);
@@ -140,8 +141,7 @@ void balance_dense(const CutOperator& op, const std::vector<int>& mesh_of, doubl
     const std::vector<double> indicator = mesh_indicators(op, mesh_of);
     Eigen::MatrixXd q =
         Eigen::MatrixXd::Zero(dense.rows(), *std::max_element(mesh_of.begin(), mesh_of.end()) + 1);
-    for (const int i : op.rows)
-        q(i, mesh_of[static_cast<std::size_t>(i)]) = indicator[static_cast<std::size_t>(i)];
+    for (const int i : op.rows) q(i, mesh_of[at(i)]) = indicator[at(i)];
     const Eigen::MatrixXd known = component_eigenpairs(op).vectors;
     q -= (known * (known.transpose() * q)).eval();
     dense -= tau * (q * q.transpose());
@@ -309,11 +309,10 @@ void sort_descending(EigenPairs& pairs) {
     std::vector<Eigen::Index> order(pairs.values.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-        return pairs.values[static_cast<std::size_t>(a)] > pairs.values[static_cast<std::size_t>(b)];
+        return pairs.values[at(a)] > pairs.values[at(b)];
     });
     EigenPairs sorted;
-    for (const Eigen::Index k : order)
-        sorted.append(pairs.values[static_cast<std::size_t>(k)], pairs.vectors.col(k));
+    for (const Eigen::Index k : order) sorted.append(pairs.values[at(k)], pairs.vectors.col(k));
     pairs = std::move(sorted);
 }
 
@@ -351,8 +350,7 @@ EigenPairs sparse_eigenpairs(const Comm& comm, const CutOperator& op, int count,
     ServedProduct product(comm, op.matrix,
                           comm.is_root() ? mesh_balance(op, options, mesh_of) : GroupBalance{});
     const EigenPairs found = krylov_eigenpairs(comm, op, product, pairs, wanted, 0, options);
-    for (int k = 0; k < wanted; ++k)
-        pairs.append(found.values[static_cast<std::size_t>(k)], found.vectors.col(k));
+    for (int k = 0; k < wanted; ++k) pairs.append(found.values[at(k)], found.vectors.col(k));
     if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, product, options, pairs);
     return pairs;
 }
@@ -363,8 +361,8 @@ Eigen::MatrixXd back_multiplied(const CutOperator& op, const Eigen::MatrixXd& ve
     for (Eigen::Index k = 0; k < vectors.cols(); ++k) {
         double squares = 0.0;
         for (Eigen::Index r = 0; r < rows; ++r) {
-            const int i = op.rows[static_cast<std::size_t>(r)];
-            const double value = vectors(i, k) / std::sqrt(op.degree[static_cast<std::size_t>(i)]);
+            const int i = op.rows[at(r)];
+            const double value = vectors(i, k) / std::sqrt(op.degree[at(i)]);
             coordinates(r, k) = value;
             squares += value * value;
         }
@@ -390,7 +388,7 @@ SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinit
     embedding.rows = op.rows;
     embedding.eigenvalues = pairs.values;
     embedding.coordinates = back_multiplied(op, pairs.vectors);
-    for (const int i : op.rows) embedding.degrees.push_back(op.degree[static_cast<std::size_t>(i)]);
+    for (const int i : op.rows) embedding.degrees.push_back(op.degree[at(i)]);
     return embedding;
 }
 

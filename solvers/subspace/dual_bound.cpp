@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solvers/subspace/tile_sums.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -34,7 +35,7 @@ void PaperDualBound::begin_tile(int first, int width, const double* reconstructi
         const double* x = stack_.columns.data() + static_cast<std::int64_t>(first + c) * stack_.dimension;
         const double* z = reconstruction + static_cast<std::int64_t>(c) * stack_.dimension;
         for (int h = 0; h < stack_.features; ++h) {
-            const int begin = stack_.offset[static_cast<std::size_t>(h)];
+            const int begin = stack_.offset[at(h)];
             double squares = 0.0;
             for (int k = begin; k < begin + stack_.rows_of(h); ++k) squares += (x[k] - z[k]) * (x[k] - z[k]);
             residual_norm_.push_back(2.0 * std::sqrt(squares) * (1.0 + stack_.inner_product_error()));
@@ -80,8 +81,7 @@ void PaperDualBound::end_tile() {
     const double* z = reconstruction_;
     add_by_tiles<2>(width_, reconstruction_sum, sums_, [&](std::int64_t c, double* tile) {
         for (int h = 0; h < stack_.features; ++h) {
-            const double half =
-                0.5 * shift_[static_cast<std::size_t>(c * stack_.features + h)] * (1.0 + 4.0 * epsilon);
+            const double half = 0.5 * shift_[at(c * stack_.features + h)] * (1.0 + 4.0 * epsilon);
             for (int k = 0; k < stack_.rows_of(h); ++k, ++z) {
                 tile[reconstruction_sum] += *z * *z;
                 tile[shifted_sum] += (*z + half) * (*z + half);

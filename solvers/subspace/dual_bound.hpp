@@ -17,6 +17,7 @@
 
 #include "solvers/numeric/exact_sum.hpp"
 #include "solvers/subspace/feature_stack.hpp"
+#include "src/base/index.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
@@ -47,7 +48,7 @@ class PaperDualBound {
 
     /// An upper bound of ||u_hj|| for the tile's column c.
     [[nodiscard]] double residual_norm(int c, int h) const {
-        return residual_norm_[static_cast<std::size_t>(c * stack_.features + h)];
+        return residual_norm_[at(c * stack_.features + h)];
     }
 
   private:

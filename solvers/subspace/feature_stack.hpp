@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solvers/subspace/subspace_problem.hpp"
+#include "src/base/index.hpp"
 #include "src/histograms/feature_matrices.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/node_shared_array.hpp"
@@ -28,12 +29,8 @@ struct FeatureStack {
     double squared_norm = 0.0;                  ///< sum_h ||X_h||_F^2, the objective at W = 0
     double largest_inner = 0.0;                 ///< largest squared norm of a column of a feature
 
-    [[nodiscard]] int rows_of(int h) const noexcept {
-        return offset[static_cast<std::size_t>(h) + 1] - offset[static_cast<std::size_t>(h)];
-    }
-    [[nodiscard]] const double* feature(int h) const noexcept {
-        return columns.data() + offset[static_cast<std::size_t>(h)];
-    }
+    [[nodiscard]] int rows_of(int h) const noexcept { return offset[at(h) + 1] - offset[at(h)]; }
+    [[nodiscard]] const double* feature(int h) const noexcept { return columns.data() + offset[at(h)]; }
     /// An upper bound of |computed - exact| / (||x|| ||y||) for an inner product of dimension D in double.
     [[nodiscard]] double inner_product_error() const noexcept;
 };

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <span>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -14,11 +16,11 @@ std::vector<double> column_sums(const SparseCoefficients& coefficients,
     const auto features = static_cast<std::size_t>(coefficients.features);
     std::vector<double> sums(static_cast<std::size_t>(coefficients.columns.size()) * 2 * features, 0.0);
     for (std::size_t c = 0; c < static_cast<std::size_t>(coefficients.columns.size()); ++c) {
-        const int part = part_of_patch[static_cast<std::size_t>(coefficients.columns.begin) + c];
+        const int part = part_of_patch[at(coefficients.columns.begin) + c];
         double* const all = sums.data() + c * 2 * features;
         const auto end = static_cast<std::size_t>(coefficients.offsets[c + 1]);
         for (auto k = static_cast<std::size_t>(coefficients.offsets[c]); k < end; ++k) {
-            const bool same_part = part_of_patch[static_cast<std::size_t>(coefficients.rows[k])] == part;
+            const bool same_part = part_of_patch[at(coefficients.rows[k])] == part;
             for (std::size_t h = 0; h < features; ++h) {
                 const double w = std::abs(coefficients.values[k * features + h]);
                 all[h] += w;
@@ -42,7 +44,7 @@ std::vector<double> column_blocks(const SparseCoefficients& coefficients,
                 const double w = coefficients.values[k * features + h];
                 squares += w * w;
             }
-            const int part = part_of_patch[static_cast<std::size_t>(coefficients.rows[k])];
+            const int part = part_of_patch[at(coefficients.rows[k])];
             sums[c * parts + static_cast<std::size_t>(part)] += std::sqrt(squares);
         }
     }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <numeric>
 
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 
 namespace coseg {
@@ -31,8 +32,8 @@ int add_cycle(const std::vector<int>& cycle, std::size_t wanted, std::vector<std
     for (std::size_t k = 0; k < cycle.size(); ++k) {
         const int a = cycle[k];
         const int b = cycle[(k + 1) % cycle.size()];
-        std::vector<int>& of_a = links[static_cast<std::size_t>(a)];
-        std::vector<int>& of_b = links[static_cast<std::size_t>(b)];
+        std::vector<int>& of_a = links[at(a)];
+        std::vector<int>& of_b = links[at(b)];
         if (of_a.size() >= wanted || of_b.size() >= wanted) continue;
         if (std::find(of_a.begin(), of_a.end(), b) != of_a.end()) continue;
         of_a.push_back(b);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -70,7 +71,7 @@ std::int64_t allowed_pair_count(const SubspaceProblem& problem) {
     if (problem.scope == PenaltyScope::rows) return n * (n - 1);
     const int meshes = 1 + *std::max_element(problem.mesh_of.begin(), problem.mesh_of.end());
     std::vector<std::int64_t> patches(static_cast<std::size_t>(meshes), 0);
-    for (const int mesh : problem.mesh_of) ++patches[static_cast<std::size_t>(mesh)];
+    for (const int mesh : problem.mesh_of) ++patches[at(mesh)];
     std::int64_t pairs = 0;
     for (std::size_t m = 0; m < patches.size(); ++m) {
         std::int64_t rows = problem.allowed_meshes.empty() ? n - patches[m] : 0;

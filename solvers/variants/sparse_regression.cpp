@@ -9,6 +9,7 @@
 #include "solvers/numeric/exact_sum.hpp"
 #include "solvers/subspace/feature_stack.hpp"
 #include "solvers/subspace/row_scope_column.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -226,10 +227,9 @@ bool SparseRegression::solve_support(Column& column, std::vector<double>& gradie
     Eigen::MatrixXd gram(size, size);
     Eigen::VectorXd slope(size);
     for (Eigen::Index a = 0; a < size; ++a) {
-        const std::size_t i = support[static_cast<std::size_t>(a)];
+        const std::size_t i = support[at(a)];
         slope(a) = gradient[i] - std::copysign(0.5 * beta_, column.weights[i]);
-        for (Eigen::Index b = 0; b <= a; ++b)
-            gram(a, b) = gram(b, a) = column.gram[i][support[static_cast<std::size_t>(b)]];
+        for (Eigen::Index b = 0; b <= a; ++b) gram(a, b) = gram(b, a) = column.gram[i][support[at(b)]];
     }
     Eigen::VectorXd step = gram.completeOrthogonalDecomposition().solve(slope);
     const Eigen::VectorXd flat = slope - gram * step;
@@ -240,7 +240,7 @@ bool SparseRegression::solve_support(Column& column, std::vector<double>& gradie
     double length = is_flat ? std::numeric_limits<double>::infinity() : 1.0;
     Eigen::Index first = -1;
     for (Eigen::Index a = 0; a < size; ++a) {
-        const double ratio = -column.weights[support[static_cast<std::size_t>(a)]] / step(a);
+        const double ratio = -column.weights[support[at(a)]] / step(a);
         if (ratio > 0.0 && ratio < length) {
             length = ratio;
             first = a;
@@ -248,7 +248,7 @@ bool SparseRegression::solve_support(Column& column, std::vector<double>& gradie
     }
     if (!std::isfinite(length)) return false;
     for (Eigen::Index a = 0; a < size; ++a) {
-        const std::size_t i = support[static_cast<std::size_t>(a)];
+        const std::size_t i = support[at(a)];
         const double change = a == first ? -column.weights[i] : length * step(a);
         column.weights[i] = a == first ? 0.0 : column.weights[i] + change;
         for (std::size_t k = 0; k < gradient.size(); ++k)

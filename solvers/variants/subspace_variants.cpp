@@ -6,6 +6,7 @@
 #include "solvers/numeric/blas.hpp"
 #include "solvers/variants/sparse_regression.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -112,7 +113,7 @@ const std::vector<std::string>& variant_names() {
     return names;
 }
 
-std::string to_string(SubspaceVariant variant) { return variant_names()[static_cast<std::size_t>(variant)]; }
+std::string to_string(SubspaceVariant variant) { return variant_names()[at(variant)]; }
 
 SubspaceVariant variant_of(const std::string& name) {
     const std::vector<std::string>& names = variant_names();

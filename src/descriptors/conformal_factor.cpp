@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/descriptors/gaussian_curvature.hpp"
 
 namespace coseg {
@@ -30,9 +31,9 @@ VertexComponents vertex_components(const TriMesh& mesh) {
     std::vector<int> parent(static_cast<std::size_t>(mesh.vertex_count()));
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&](int v) {
-        while (parent[static_cast<std::size_t>(v)] != v) {
-            int& up = parent[static_cast<std::size_t>(v)];
-            v = up = parent[static_cast<std::size_t>(up)];
+        while (parent[at(v)] != v) {
+            int& up = parent[at(v)];
+            v = up = parent[at(up)];
         }
         return v;
     };
@@ -40,7 +41,7 @@ VertexComponents vertex_components(const TriMesh& mesh) {
         for (int k = 1; k < 3; ++k) {
             const int a = root(mesh.faces(0, f));
             const int b = root(mesh.faces(k, f));
-            parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+            parent[at(std::max(a, b))] = std::min(a, b);
         }
     }
     VertexComponents components;
@@ -48,9 +49,8 @@ VertexComponents vertex_components(const TriMesh& mesh) {
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         const int r = root(v);
         if (r == v) components.first_vertex.push_back(v);
-        components.of_vertex[static_cast<std::size_t>(v)] =
-            r == v ? static_cast<int>(components.count()) - 1
-                   : components.of_vertex[static_cast<std::size_t>(r)];
+        components.of_vertex[at(v)] =
+            r == v ? static_cast<int>(components.count()) - 1 : components.of_vertex[at(r)];
     }
     return components;
 }
@@ -103,8 +103,7 @@ SparseMatrix pinned_laplacian(const TriMesh& mesh, const VertexComponents& compo
 /// Sums of vertex values over each component.
 Eigen::VectorXd component_sums(const VertexComponents& components, const Eigen::VectorXd& values) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(components.count());
-    for (Eigen::Index v = 0; v < values.size(); ++v)
-        sum[components.of_vertex[static_cast<std::size_t>(v)]] += values[v];
+    for (Eigen::Index v = 0; v < values.size(); ++v) sum[components.of_vertex[at(v)]] += values[v];
     return sum;
 }
 
@@ -116,7 +115,7 @@ Eigen::VectorXd curvature_to_spread(const TriMesh& mesh, const VertexComponents&
     const Eigen::VectorXd area_sum = component_sums(components, area);
     Eigen::VectorXd difference(mesh.vertex_count());
     for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const int c = components.of_vertex[static_cast<std::size_t>(v)];
+        const int c = components.of_vertex[at(v)];
         difference[v] = curvature_sum[c] * area[v] / area_sum[c] - curvature[v];
     }
     return difference;
@@ -137,7 +136,7 @@ void subtract_component_means(const VertexComponents& components, const Eigen::V
     const Eigen::VectorXd sum = component_sums(components, phi.cwiseProduct(weight));
     const Eigen::VectorXd total = component_sums(components, weight);
     for (Eigen::Index v = 0; v < phi.size(); ++v) {
-        const int c = components.of_vertex[static_cast<std::size_t>(v)];
+        const int c = components.of_vertex[at(v)];
         phi[v] -= sum[c] / total[c];
     }
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/mesh/half_edges.hpp"
 
 namespace coseg {
@@ -21,8 +22,8 @@ std::vector<bool> boundary_vertices(const TriMesh& mesh) {
         const bool paired = (i > 0 && share_edge(sides[i - 1], sides[i])) ||
                             (i + 1 < sides.size() && share_edge(sides[i], sides[i + 1]));
         if (paired) continue;
-        on_boundary[static_cast<std::size_t>(sides[i].low)] = true;
-        on_boundary[static_cast<std::size_t>(sides[i].high)] = true;
+        on_boundary[at(sides[i].low)] = true;
+        on_boundary[at(sides[i].high)] = true;
     }
     return on_boundary;
 }
@@ -44,7 +45,7 @@ Eigen::VectorXd angle_defects(const TriMesh& mesh) {
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) {
             const int v = mesh.faces(k, f);
-            used[static_cast<std::size_t>(v)] = true;
+            used[at(v)] = true;
             angle_sum[v] += corner_angle(mesh.vertices.col(mesh.faces((k + 2) % 3, f)), mesh.vertices.col(v),
                                          mesh.vertices.col(mesh.faces((k + 1) % 3, f)));
         }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -160,7 +161,7 @@ void InsideRays::cast(const Eigen::Vector3d& origin, const Eigen::Matrix3Xd& dir
         alignas(32) PacketMask mask{};
         const int count = std::min(packet, rays - first);
         for (int i = 0; i < count; ++i) {
-            mask[static_cast<std::size_t>(i)] = -1;
+            mask[at(i)] = -1;
             set_ray(batch, i, from, directions.col(first + i).cast<float>());
         }
         EntryContext context{};

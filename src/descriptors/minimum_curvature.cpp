@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/descriptors/gaussian_curvature.hpp"
 #include "src/mesh/half_edges.hpp"
 
@@ -40,7 +41,7 @@ std::vector<CurvatureMeasure> vertex_measures(const TriMesh& mesh, const FaceGeo
     std::vector<CurvatureMeasure> measure(static_cast<std::size_t>(mesh.vertex_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) {
-            CurvatureMeasure& m = measure[static_cast<std::size_t>(mesh.faces(k, f))];
+            CurvatureMeasure& m = measure[at(mesh.faces(k, f))];
             m.area += geometry.area[f] / 3.0;
             m.area_normal += geometry.area[f] / 3.0 * geometry.normal.col(f);
         }
@@ -52,8 +53,8 @@ std::vector<CurvatureMeasure> vertex_measures(const TriMesh& mesh, const FaceGeo
         if (!(length > 0.0)) continue;
         const Eigen::Matrix3d half =
             0.5 * turn(mesh, geometry, sides[i], sides[i + 1]) / length * edge * edge.transpose();
-        measure[static_cast<std::size_t>(sides[i].low)].tensor += half;
-        measure[static_cast<std::size_t>(sides[i].high)].tensor += half;
+        measure[at(sides[i].low)].tensor += half;
+        measure[at(sides[i].high)].tensor += half;
     }
     return measure;
 }
@@ -64,8 +65,8 @@ std::vector<CurvatureMeasure> ring_sums(const std::vector<CurvatureMeasure>& mea
     std::vector<CurvatureMeasure> sum = measure;
     for (std::size_t i = 0; i < sides.size(); ++i) {
         if (i > 0 && sides[i - 1].low == sides[i].low && sides[i - 1].high == sides[i].high) continue;
-        sum[static_cast<std::size_t>(sides[i].low)].add(measure[static_cast<std::size_t>(sides[i].high)]);
-        sum[static_cast<std::size_t>(sides[i].high)].add(measure[static_cast<std::size_t>(sides[i].low)]);
+        sum[at(sides[i].low)].add(measure[at(sides[i].high)]);
+        sum[at(sides[i].high)].add(measure[at(sides[i].low)]);
     }
     return sum;
 }
@@ -99,7 +100,7 @@ PrincipalCurvatures principal_curvatures(const TriMesh& mesh, const FaceGeometry
     const double smallest_area = 1e-12 * geometry.total_area;
     PrincipalCurvatures curvature{Eigen::VectorXd(mesh.vertex_count()), Eigen::VectorXd(mesh.vertex_count())};
     for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const Eigen::Vector2d k = tangential_eigenvalues(measure[static_cast<std::size_t>(v)], smallest_area);
+        const Eigen::Vector2d k = tangential_eigenvalues(measure[at(v)], smallest_area);
         curvature.minimum[v] = k[0];
         curvature.maximum[v] = k[1];
     }

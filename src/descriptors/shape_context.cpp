@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/base/vector_clones.hpp"
 
 namespace coseg {
@@ -25,7 +26,7 @@ SamplePoints sample_points(const GeodesicTable& table, const FaceGeometry& geome
     const auto samples = static_cast<Eigen::Index>(table.sample_face.size());
     SamplePoints points{Eigen::MatrixX3f(samples, 3), Eigen::MatrixX3f(samples, 3)};
     for (Eigen::Index k = 0; k < samples; ++k) {
-        const int face = table.sample_face[static_cast<std::size_t>(k)];
+        const int face = table.sample_face[at(k)];
         points.centroid.row(k) = geometry.centroid.col(face).transpose().cast<float>();
         points.inward.row(k) = -geometry.normal.col(face).transpose().cast<float>();
     }
@@ -50,7 +51,7 @@ std::array<float, angle_edges> cosine_thresholds() {
     for (int b = 1; b <= angle_edges; ++b) {
         const bool is_middle = 2 * b == shape_context_angles;
         const double cosine = std::cos(std::numbers::pi * b / shape_context_angles);
-        thresholds[static_cast<std::size_t>(b - 1)] = static_cast<float>(is_middle ? -in_plane : cosine);
+        thresholds[at(b - 1)] = static_cast<float>(is_middle ? -in_plane : cosine);
     }
     return thresholds;
 }
@@ -119,8 +120,8 @@ void write_contexts(const BinPair& bin, const Eigen::VectorXd& weight, ShapeCont
                     float* context) {
     std::array<std::array<double, shape_context_bins>, 2> mass{};
     for (Eigen::Index k = 0; k < weight.size(); ++k) {
-        mass[0][static_cast<std::size_t>(bin[0][k])] += weight[k];
-        mass[1][static_cast<std::size_t>(bin[1][k])] += weight[k];
+        mass[0][at(bin[0][k])] += weight[k];
+        mass[1][at(bin[1][k])] += weight[k];
     }
     for (const std::size_t kind : {0U, 1U}) {
         if (normal == (kind == 0 ? ShapeContextNormal::sample : ShapeContextNormal::face)) continue;

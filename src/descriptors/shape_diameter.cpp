@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/descriptors/inside_rays.hpp"
 
 namespace coseg {
@@ -24,7 +25,7 @@ constexpr int smoothing_rounds = 3;
 Eigen::Matrix3d face_frame(const TriMesh& mesh, int face, const Eigen::Vector3d& normal) {
     std::array<Eigen::Vector3d, 3> edge;
     for (int k = 0; k < 3; ++k) {
-        edge[static_cast<std::size_t>(k)] =
+        edge[at(k)] =
             mesh.vertices.col(mesh.faces((k + 1) % 3, face)) - mesh.vertices.col(mesh.faces(k, face));
     }
     const Eigen::Vector3d inward = -normal;
@@ -87,10 +88,8 @@ void fill_from_neighbors(const DualGraph& graph, Eigen::VectorXd& thickness) {
         for (const int f : missing) {
             double sum = 0.0;
             int count = 0;
-            for (int k = graph.offsets[static_cast<std::size_t>(f)];
-                 k < graph.offsets[static_cast<std::size_t>(f) + 1]; ++k) {
-                const double value =
-                    thickness[graph.other_face(graph.incident[static_cast<std::size_t>(k)], f)];
+            for (int k = graph.offsets[at(f)]; k < graph.offsets[at(f) + 1]; ++k) {
+                const double value = thickness[graph.other_face(graph.incident[at(k)], f)];
                 if (!(value > 0.0)) continue;
                 sum += value;
                 ++count;
@@ -113,10 +112,10 @@ Eigen::VectorXd smoothed(const DualGraph& graph, const Eigen::VectorXd& values) 
         if (edge.is_virtual) continue;
         sum[edge.face_a] += values[edge.face_b];
         sum[edge.face_b] += values[edge.face_a];
-        ++count[static_cast<std::size_t>(edge.face_a)];
-        ++count[static_cast<std::size_t>(edge.face_b)];
+        ++count[at(edge.face_a)];
+        ++count[at(edge.face_b)];
     }
-    for (int f = 0; f < graph.face_count; ++f) sum[f] /= count[static_cast<std::size_t>(f)];
+    for (int f = 0; f < graph.face_count; ++f) sum[f] /= count[at(f)];
     return sum;
 }
 

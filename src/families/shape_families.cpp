@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/spelling.hpp"
 #include "src/families/family_recipes.hpp"
 #include "src/families/isosurface.hpp"
@@ -127,7 +128,7 @@ const ShapeFamily& shape_family(const std::string& name) {
 
 LabeledShape generate_shape(const std::string& family, std::uint64_t seed, int index, int target_faces) {
     const std::ptrdiff_t number = &shape_family(family) - shape_families().data();
-    const Recipe& recipe = recipes()[static_cast<std::size_t>(number)];
+    const Recipe& recipe = recipes()[at(number)];
     if (target_faces < 500 || target_faces > 200000) {
         throw Error(ExitCode::usage,
                     "a generated shape has 500 to 200000 faces, not " + std::to_string(target_faces));

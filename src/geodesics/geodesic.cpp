@@ -8,6 +8,7 @@
 #include <string>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 #include "src/base/vector_clones.hpp"
 #include "src/geodesics/shortest_paths.hpp"
@@ -65,9 +66,8 @@ int most_remote_face(const FaceGeometry& geometry, std::uint64_t seed) {
 }
 
 float corner_sum(const TriMesh& mesh, int face, const std::vector<float>& distance) {
-    return distance[static_cast<std::size_t>(mesh.faces(0, face))] +
-           distance[static_cast<std::size_t>(mesh.faces(1, face))] +
-           distance[static_cast<std::size_t>(mesh.faces(2, face))];
+    return distance[at(mesh.faces(0, face))] + distance[at(mesh.faces(1, face))] +
+           distance[at(mesh.faces(2, face))];
 }
 
 void require_all_reached(const TriMesh& mesh, const std::vector<float>& distance) {
@@ -89,7 +89,7 @@ class RemoteFaces {
           seed_(seed),
           is_sample_(static_cast<std::size_t>(mesh.face_count()), 0),
           bound_(static_cast<std::size_t>((mesh.face_count() + run - 1) / run), infinity) {}
-    void leave_out(int face) { is_sample_[static_cast<std::size_t>(face)] = 1; }
+    void leave_out(int face) { is_sample_[at(face)] = 1; }
     [[nodiscard]] int farthest(const std::vector<float>& distance);
 
   private:
@@ -105,7 +105,7 @@ void RemoteFaces::offer_run(std::size_t number, const std::vector<float>& distan
     const int begin = static_cast<int>(number) * run;
     float largest = -infinity;
     for (int f = begin; f < std::min(begin + run, mesh_.face_count()); ++f) {
-        if (is_sample_[static_cast<std::size_t>(f)] != 0) continue;
+        if (is_sample_[at(f)] != 0) continue;
         const float sum = corner_sum(mesh_, f, distance);
         largest = std::max(largest, sum);
         farthest.offer(f, sum);
@@ -181,10 +181,10 @@ void fill_rows(const TriMesh& mesh, std::span<const BatchDistances> batches, Geo
     for (int f = 0; f < mesh.face_count(); ++f) {
         float* column = table.distance.data() + f * table.distance.rows() + first_row;
         for (const BatchDistances& batch : batches) {
-            const PathLanes mean = (batch.of_vertex[static_cast<std::size_t>(mesh.faces(0, f))] +
-                                    batch.of_vertex[static_cast<std::size_t>(mesh.faces(1, f))] +
-                                    batch.of_vertex[static_cast<std::size_t>(mesh.faces(2, f))]) *
-                                   (1.0F / 3.0F);
+            const PathLanes mean =
+                (batch.of_vertex[at(mesh.faces(0, f))] + batch.of_vertex[at(mesh.faces(1, f))] +
+                 batch.of_vertex[at(mesh.faces(2, f))]) *
+                (1.0F / 3.0F);
             const std::size_t rows = batch.faces.size();
             if (rows == path_lanes)
                 Eigen::Map<PathLanes>{column} = mean;

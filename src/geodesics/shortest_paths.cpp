@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/base/index.hpp"
 #include "src/base/vector_clones.hpp"
 
 namespace coseg {
@@ -15,8 +16,8 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 std::span<const SurfaceArc> arcs_of(const SurfaceGraph& graph, int node) {
-    const int begin = graph.offsets[static_cast<std::size_t>(node)];
-    const int end = graph.offsets[static_cast<std::size_t>(node) + 1];
+    const int begin = graph.offsets[at(node)];
+    const int end = graph.offsets[at(node) + 1];
     return {graph.arcs.data() + begin, static_cast<std::size_t>(end - begin)};
 }
 
@@ -40,9 +41,7 @@ class NodeQueue {
         std::uint32_t key;
         int node;
     };
-    void put(Entry entry) {
-        buckets_[static_cast<std::size_t>(std::bit_width(entry.key ^ last_))].push_back(entry);
-    }
+    void put(Entry entry) { buckets_[at(std::bit_width(entry.key ^ last_))].push_back(entry); }
     /// Spreads the first bucket that is not empty over those before it.
     bool refill() {
         const auto full =
@@ -96,14 +95,14 @@ std::vector<int> lower_distances(const SurfaceGraph& graph, std::span<const Path
     std::vector<int> settled;
     NodeQueue queue;
     const auto offer = [&](int node, float candidate) {
-        float& known = distance[static_cast<std::size_t>(node)];
+        float& known = distance[at(node)];
         if (!(candidate < known)) return;
         known = candidate;
         queue.push(candidate, node);
     };
     for (const PathSource& source : sources) offer(source.node, source.distance);
     for (PathSource nearest; queue.pop(nearest);) {
-        if (nearest.distance > distance[static_cast<std::size_t>(nearest.node)]) continue;
+        if (nearest.distance > distance[at(nearest.node)]) continue;
         settled.push_back(nearest.node);
         for (const SurfaceArc& arc : arcs_of(graph, nearest.node))
             offer(arc.node, nearest.distance + arc.length);
@@ -116,10 +115,10 @@ void path_distances(const SurfaceGraph& graph, std::span<const std::vector<PathS
     distance.assign(static_cast<std::size_t>(graph.node_count()), PathLanes::Constant(infinity));
     std::vector<unsigned char> is_pending(distance.size(), 0);
     for (int lane = 0; lane < path_lanes; ++lane) {
-        for (const PathSource& source : sources[static_cast<std::size_t>(lane)]) {
-            float& known = distance[static_cast<std::size_t>(source.node)][lane];
+        for (const PathSource& source : sources[at(lane)]) {
+            float& known = distance[at(source.node)][lane];
             known = std::min(known, source.distance);
-            is_pending[static_cast<std::size_t>(source.node)] = 1;
+            is_pending[at(source.node)] = 1;
         }
     }
     auto pending = static_cast<int>(std::count(is_pending.begin(), is_pending.end(), 1));

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <optional>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -111,8 +113,8 @@ int join_virtual_edges(const TriMesh& mesh, const DualGraph& graph, ConnectionLi
 void drop_repeated_arcs(SurfaceGraph& graph) {
     std::size_t kept = 0;
     for (int v = 0; v < graph.node_count(); ++v) {
-        const auto begin = graph.arcs.begin() + graph.offsets[static_cast<std::size_t>(v)];
-        const auto end = graph.arcs.begin() + graph.offsets[static_cast<std::size_t>(v) + 1];
+        const auto begin = graph.arcs.begin() + graph.offsets[at(v)];
+        const auto end = graph.arcs.begin() + graph.offsets[at(v) + 1];
         std::sort(begin, end, [](const SurfaceArc& x, const SurfaceArc& y) {
             return x.node != y.node ? x.node < y.node : x.length < y.length;
         });
@@ -120,7 +122,7 @@ void drop_repeated_arcs(SurfaceGraph& graph) {
         for (auto arc = begin; arc != end; ++arc) {
             if (kept == first || graph.arcs[kept - 1].node != arc->node) graph.arcs[kept++] = *arc;
         }
-        graph.offsets[static_cast<std::size_t>(v)] = static_cast<int>(first);
+        graph.offsets[at(v)] = static_cast<int>(first);
     }
     graph.offsets.back() = static_cast<int>(kept);
     graph.arcs.resize(kept);
@@ -131,12 +133,12 @@ SurfaceGraph grouped_by_node(const ConnectionList& list, int vertices, int nodes
     SurfaceGraph graph;
     graph.vertex_count = vertices;
     graph.offsets.assign(static_cast<std::size_t>(nodes) + 1, 0);
-    for (const Connection& c : list.all()) ++graph.offsets[static_cast<std::size_t>(c.from) + 1];
+    for (const Connection& c : list.all()) ++graph.offsets[at(c.from) + 1];
     std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
     graph.arcs.resize(list.all().size());
     std::vector<int> next(graph.offsets.begin(), graph.offsets.end() - 1);
     for (const Connection& c : list.all()) {
-        graph.arcs[static_cast<std::size_t>(next[static_cast<std::size_t>(c.from)]++)] = {c.to, c.length};
+        graph.arcs[at(next[at(c.from)]++)] = {c.to, c.length};
     }
     return graph;
 }

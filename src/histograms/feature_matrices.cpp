@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/parallel/block_range.hpp"
 
 namespace coseg {
@@ -158,7 +159,7 @@ FeatureMatrices FeatureMatrices::chosen(const Comm& comm, std::span<const int> o
     for (std::size_t h = 0; h < size(); ++h) rows.push_back(offsets_[h + 1] - offsets_[h]);
     FeatureMatrices part(comm, rows, static_cast<Index>(order.size()));
     part.for_each_column([&](Index i, double* column) {
-        std::copy_n(data() + order[static_cast<std::size_t>(i)] * dimension(), dimension(), column);
+        std::copy_n(data() + order[at(i)] * dimension(), dimension(), column);
     });
     return part;
 }

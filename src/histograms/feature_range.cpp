@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/histograms/hashed_sample.hpp"
 
 namespace coseg {
@@ -40,7 +41,7 @@ void check_feature(int bins, std::span<const FeatureOfMesh> local) {
 
 std::vector<double> uniform_edges(double low, double high, int bins) {
     std::vector<double> edges(static_cast<std::size_t>(bins) + 1);
-    for (int b = 0; b <= bins; ++b) edges[static_cast<std::size_t>(b)] = low + (high - low) * b / bins;
+    for (int b = 0; b <= bins; ++b) edges[at(b)] = low + (high - low) * b / bins;
     edges.back() = high;
     return edges;
 }

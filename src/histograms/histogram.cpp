@@ -5,6 +5,7 @@
 #include <string>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -72,8 +73,7 @@ Eigen::MatrixXd smoothed(const Eigen::MatrixXd& histogram, double deviation) {
         for (int b = 0; b < bins; ++b) {
             if (histogram(b, p) == 0.0) continue;
             for (int k = -reach; k <= reach; ++k) {
-                result(reflected(b + k, bins), p) +=
-                    kernel[static_cast<std::size_t>(k + reach)] * histogram(b, p);
+                result(reflected(b + k, bins), p) += kernel[at(k + reach)] * histogram(b, p);
             }
         }
     }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "src/base/index.hpp"
 #include "src/mesh/connected_pieces.hpp"
 #include "src/mesh/half_edges.hpp"
 #include "src/mesh/spanning_joins.hpp"
@@ -80,16 +81,15 @@ void join_components(DualGraph& graph, const FaceGeometry& geometry) {
 void index_incidence(DualGraph& graph) {
     graph.offsets.assign(static_cast<std::size_t>(graph.face_count) + 1, 0);
     for (const DualEdge& e : graph.edges) {
-        ++graph.offsets[static_cast<std::size_t>(e.face_a) + 1];
-        ++graph.offsets[static_cast<std::size_t>(e.face_b) + 1];
+        ++graph.offsets[at(e.face_a) + 1];
+        ++graph.offsets[at(e.face_b) + 1];
     }
     std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
     graph.incident.resize(graph.edges.size() * 2);
     std::vector<int> next(graph.offsets.begin(), graph.offsets.end() - 1);
     for (std::size_t e = 0; e < graph.edges.size(); ++e) {
         for (const int f : {graph.edges[e].face_a, graph.edges[e].face_b}) {
-            graph.incident[static_cast<std::size_t>(next[static_cast<std::size_t>(f)]++)] =
-                static_cast<int>(e);
+            graph.incident[at(next[at(f)]++)] = static_cast<int>(e);
         }
     }
 }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/mesh/face_geometry.hpp"
 #include "src/mesh/tri_mesh.hpp"
 
@@ -28,7 +29,7 @@ struct DualGraph {
     std::vector<int> incident;  ///< indices into `edges`, ascending within a face
 
     [[nodiscard]] int other_face(int edge, int face) const {
-        const DualEdge& e = edges[static_cast<std::size_t>(edge)];
+        const DualEdge& e = edges[at(edge)];
         return e.face_a == face ? e.face_b : e.face_a;
     }
 };

@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 EdgeGroups group_edges(const std::vector<int>& from, const std::vector<int>& to, int vertices) {
     std::vector<int> begin(static_cast<std::size_t>(vertices) + 1, 0);
     for (std::size_t h = 0; h < from.size(); ++h) {
-        if (from[h] != to[h]) ++begin[static_cast<std::size_t>(std::min(from[h], to[h])) + 1];
+        if (from[h] != to[h]) ++begin[at(std::min(from[h], to[h])) + 1];
     }
     for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
     std::vector<std::pair<int, int>> by_lower(
@@ -18,7 +20,7 @@ EdgeGroups group_edges(const std::vector<int>& from, const std::vector<int>& to,
     for (std::size_t h = 0; h < from.size(); ++h) {
         if (from[h] == to[h]) continue;
         const auto lower = static_cast<std::size_t>(std::min(from[h], to[h]));
-        by_lower[static_cast<std::size_t>(next[lower]++)] = {std::max(from[h], to[h]), static_cast<int>(h)};
+        by_lower[at(next[lower]++)] = {std::max(from[h], to[h]), static_cast<int>(h)};
     }
     EdgeGroups groups;
     groups.half_edges.reserve(by_lower.size());

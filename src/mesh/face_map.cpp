@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Working faces grouped by input face: members[offsets[f] .. offsets[f+1]), ascending.
 struct WorkingFaces {

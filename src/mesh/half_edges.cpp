@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -17,7 +19,7 @@ HalfEdge half_edge(const TriMesh& mesh, int face, int k) {
 std::vector<int> starts_of_vertices(const TriMesh& mesh) {
     std::vector<int> starts(static_cast<std::size_t>(mesh.vertex_count()) + 1, 0);
     for (int f = 0; f < mesh.face_count(); ++f) {
-        for (int k = 0; k < 3; ++k) ++starts[static_cast<std::size_t>(half_edge(mesh, f, k).low) + 1];
+        for (int k = 0; k < 3; ++k) ++starts[at(half_edge(mesh, f, k).low) + 1];
     }
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
     return starts;
@@ -32,7 +34,7 @@ std::vector<HalfEdge> sorted_half_edges(const TriMesh& mesh) {
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) {
             const HalfEdge side = half_edge(mesh, f, k);
-            half_edges[static_cast<std::size_t>(next[static_cast<std::size_t>(side.low)]++)] = side;
+            half_edges[at(next[at(side.low)]++)] = side;
         }
     }
     for (std::size_t v = 0; v + 1 < starts.size(); ++v) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -11,8 +13,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3i;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<Vector3i> fan(int corners) {
     std::vector<Vector3i> triangles;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -31,10 +32,10 @@ struct PointTree {
 };
 
 int build_node(const Eigen::Matrix3Xd& points, PointTree& tree, int begin, int end) {
-    Node node{points.col(tree.order[static_cast<std::size_t>(begin)]), {}, begin, end};
+    Node node{points.col(tree.order[at(begin)]), {}, begin, end};
     node.high = node.low;
     for (int i = begin; i < end; ++i) {
-        const Eigen::Vector3d p = points.col(tree.order[static_cast<std::size_t>(i)]);
+        const Eigen::Vector3d p = points.col(tree.order[at(i)]);
         node.low = node.low.cwiseMin(p);
         node.high = node.high.cwiseMax(p);
     }
@@ -51,8 +52,8 @@ int build_node(const Eigen::Matrix3Xd& points, PointTree& tree, int begin, int e
     });
     const int left = build_node(points, tree, begin, middle);
     const int right = build_node(points, tree, middle, end);
-    tree.nodes[static_cast<std::size_t>(index)].left = left;
-    tree.nodes[static_cast<std::size_t>(index)].right = right;
+    tree.nodes[at(index)].left = left;
+    tree.nodes[at(index)].right = right;
     return index;
 }
 
@@ -72,8 +73,8 @@ PointTree build_tree(const Eigen::Matrix3Xd& points) {
 void tag_nodes(PointTree& tree, const std::vector<int>& group) {
     for (auto node = tree.nodes.rbegin(); node != tree.nodes.rend(); ++node) {
         if (node->left >= 0) {
-            const int left = tree.nodes[static_cast<std::size_t>(node->left)].group;
-            const int right = tree.nodes[static_cast<std::size_t>(node->right)].group;
+            const int left = tree.nodes[at(node->left)].group;
+            const int right = tree.nodes[at(node->right)].group;
             node->group = left == right ? left : mixed;
         } else {
             const auto first = group.begin() + node->begin;
@@ -112,11 +113,11 @@ class ForeignSearch {
 
   private:
     void visit(int index, double squared, Candidate& best) {
-        const Node& node = tree_.nodes[static_cast<std::size_t>(index)];
-        if (squared > best.squared || node.group == group_[static_cast<std::size_t>(point_)]) return;
+        const Node& node = tree_.nodes[at(index)];
+        if (squared > best.squared || node.group == group_[at(point_)]) return;
         if (node.left < 0) return visit_leaf(node, best);
-        const double left = squared_distance_to_box(tree_.nodes[static_cast<std::size_t>(node.left)], at_);
-        const double right = squared_distance_to_box(tree_.nodes[static_cast<std::size_t>(node.right)], at_);
+        const double left = squared_distance_to_box(tree_.nodes[at(node.left)], at_);
+        const double right = squared_distance_to_box(tree_.nodes[at(node.right)], at_);
         if (left <= right) {
             visit(node.left, left, best);
             visit(node.right, right, best);
@@ -127,10 +128,10 @@ class ForeignSearch {
     }
 
     void visit_leaf(const Node& node, Candidate& best) const {
-        const int mine = tree_.order[static_cast<std::size_t>(point_)];
+        const int mine = tree_.order[at(point_)];
         for (int i = node.begin; i < node.end; ++i) {
-            if (group_[static_cast<std::size_t>(i)] == group_[static_cast<std::size_t>(point_)]) continue;
-            const int other = tree_.order[static_cast<std::size_t>(i)];
+            if (group_[at(i)] == group_[at(point_)]) continue;
+            const int other = tree_.order[at(i)];
             const Candidate found{(tree_.points.col(i) - at_).squaredNorm(), std::min(mine, other),
                                   std::max(mine, other)};
             best = std::min(best, found);
@@ -150,7 +151,7 @@ std::vector<Candidate> best_candidates(const PointTree& tree, const std::vector<
     std::vector<Candidate> best(static_cast<std::size_t>(groups));
     ForeignSearch search(tree, group);
     for (std::size_t i = 0; i < group.size(); ++i) {
-        Candidate& candidate = best[static_cast<std::size_t>(group[i])];
+        Candidate& candidate = best[at(group[i])];
         if (nearest[i] > candidate.squared) continue;
         search.improve(static_cast<int>(i), candidate);
         nearest[i] = candidate.squared;
@@ -159,9 +160,9 @@ std::vector<Candidate> best_candidates(const PointTree& tree, const std::vector<
 }
 
 int root_of(std::vector<int>& parent, int group) {
-    while (parent[static_cast<std::size_t>(group)] != group) {
-        int& up = parent[static_cast<std::size_t>(group)];
-        up = parent[static_cast<std::size_t>(up)];
+    while (parent[at(group)] != group) {
+        int& up = parent[at(group)];
+        up = parent[at(up)];
         group = up;
     }
     return group;
@@ -172,10 +173,10 @@ void take(const std::vector<Candidate>& best, const std::vector<int>& group_of_p
           std::vector<int>& parent, std::vector<PointJoin>& joins) {
     for (const Candidate& c : best) {
         if (c.point_b == std::numeric_limits<int>::max()) continue;  // no longer a group of its own
-        const int a = root_of(parent, group_of_point[static_cast<std::size_t>(c.point_a)]);
-        const int b = root_of(parent, group_of_point[static_cast<std::size_t>(c.point_b)]);
+        const int a = root_of(parent, group_of_point[at(c.point_a)]);
+        const int b = root_of(parent, group_of_point[at(c.point_b)]);
         if (a == b) continue;
-        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        parent[at(std::max(a, b))] = std::min(a, b);
         joins.push_back({c.point_a, c.point_b, std::sqrt(c.squared)});
     }
 }
@@ -193,7 +194,7 @@ std::vector<PointJoin> spanning_joins(const Eigen::Matrix3Xd& points, const std:
     std::vector<double> nearest(group.size(), 0.0);
     while (static_cast<int>(joins.size()) + 1 < groups) {
         for (std::size_t i = 0; i < merged.size(); ++i) {
-            merged[i] = root_of(parent, group[static_cast<std::size_t>(tree.order[i])]);
+            merged[i] = root_of(parent, group[at(tree.order[i])]);
         }
         tag_nodes(tree, merged);
         const std::size_t before = joins.size();

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <set>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -23,16 +25,15 @@ ClusteredMesh on_grid(const TriMesh& mesh, int cells) {
     for (const auto& point : mesh.vertices.colwise()) {
         std::array<std::int64_t, 3> cell{};
         for (int k = 0; k < 3; ++k)
-            cell[static_cast<std::size_t>(k)] =
-                static_cast<std::int64_t>(std::floor((point[k] - low[k]) * scale));
+            cell[at(k)] = static_cast<std::int64_t>(std::floor((point[k] - low[k]) * scale));
         const auto [place, is_new] = cluster_at.try_emplace(cell, static_cast<int>(sums.size()));
         if (is_new) {
             sums.emplace_back(Eigen::Vector3d::Zero());
             counts.push_back(0);
         }
         cluster_of.push_back(place->second);
-        sums[static_cast<std::size_t>(place->second)] += point;
-        ++counts[static_cast<std::size_t>(place->second)];
+        sums[at(place->second)] += point;
+        ++counts[at(place->second)];
     }
     ClusteredMesh coarse;
     coarse.mesh.vertices.resize(3, static_cast<Eigen::Index>(sums.size()));
@@ -42,8 +43,7 @@ ClusteredMesh on_grid(const TriMesh& mesh, int cells) {
     std::set<std::array<int, 3>> seen;
     for (int f = 0; f < mesh.face_count(); ++f) {
         std::array<int, 3> corners{};
-        for (int k = 0; k < 3; ++k)
-            corners[static_cast<std::size_t>(k)] = cluster_of[static_cast<std::size_t>(mesh.faces(k, f))];
+        for (int k = 0; k < 3; ++k) corners[at(k)] = cluster_of[at(mesh.faces(k, f))];
         const auto [a, b, c] = corners;
         if (a == b || b == c || c == a) continue;
         std::sort(corners.begin(), corners.end());

@@ -5,13 +5,12 @@
 #include <cstddef>
 #include <numeric>
 
+#include "src/base/index.hpp"
 #include "src/mesh/edge_groups.hpp"
 
 namespace coseg {
 
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct HalfEdges {
     std::vector<int> from;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/geodesics/shortest_paths.hpp"
 #include "src/geodesics/surface_graph.hpp"
 #include "src/metrics/rand_index.hpp"
@@ -65,8 +66,7 @@ std::vector<DualEdge> boundary_edges(const DualGraph& graph, const std::vector<i
     std::vector<DualEdge> edges;
     for (const DualEdge& e : graph.edges) {
         if (e.is_virtual) continue;
-        if (label[static_cast<std::size_t>(e.face_a)] != label[static_cast<std::size_t>(e.face_b)])
-            edges.push_back(e);
+        if (label[at(e.face_a)] != label[at(e.face_b)]) edges.push_back(e);
     }
     return edges;
 }
@@ -82,8 +82,8 @@ double mean_distance(const SurfaceGraph& surface, const std::vector<DualEdge>& f
     double sum = 0.0;
     double length = 0.0;
     for (const DualEdge& e : from) {
-        const double a = distance[static_cast<std::size_t>(e.vertex_a)];
-        const double b = distance[static_cast<std::size_t>(e.vertex_b)];
+        const double a = distance[at(e.vertex_a)];
+        const double b = distance[at(e.vertex_b)];
         sum += e.length * 0.5 * (a + b);
         length += e.length;
     }

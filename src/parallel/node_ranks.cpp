@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <span>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -33,7 +35,7 @@ int node_number(const Comm& comm) {
     MPI_Allgather(&own, 1, MPI_INT, ranks.data(), 1, MPI_INT, sharing);
     MPI_Comm_free(&sharing);
     const int most = most_ranks_a_node(size);
-    return ranks[static_cast<std::size_t>(place - place % most)];
+    return ranks[at(place - place % most)];
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
@@ -25,7 +26,7 @@ class NodeRanks {
     [[nodiscard]] const Comm& leaders() const noexcept { return leaders_; }
     [[nodiscard]] int node_count() const noexcept { return node_count_; }
     /// The node, 0 .. node_count - 1, of a rank of all().
-    [[nodiscard]] int node_of(int rank) const { return node_of_[static_cast<std::size_t>(rank)]; }
+    [[nodiscard]] int node_of(int rank) const { return node_of_[at(rank)]; }
     /// Nodes that draw on the memory of this machine: 1, unless some are only taken as if they were nodes.
     [[nodiscard]] int nodes_on_machine() const noexcept { return nodes_on_machine_; }
     /// Whether a node has several ranks; the same on all ranks.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -14,7 +15,7 @@ constexpr int undecided = -1;
 int checked_part(const std::vector<std::vector<int>>& part_of_patch, std::size_t o, int patch, int parts) {
     const bool has_part =
         o < part_of_patch.size() && patch >= 0 && static_cast<std::size_t>(patch) < part_of_patch[o].size();
-    const int part = has_part ? part_of_patch[o][static_cast<std::size_t>(patch)] : undecided;
+    const int part = has_part ? part_of_patch[o][at(patch)] : undecided;
     if (part < 0 || part >= parts) {
         throw Error(ExitCode::internal, "patch " + std::to_string(patch) + " of over-segmentation " +
                                             std::to_string(o) + " has no part in 0.." +
@@ -45,15 +46,15 @@ int part_by_neighbors(const DualGraph& graph, const std::vector<int>& label, con
                                -1.0);  // -1: no such neighbour; 0: an edge without length
     const auto f = static_cast<std::size_t>(waiting.face);
     for (int k = graph.offsets[f]; k < graph.offsets[f + 1]; ++k) {
-        const int e = graph.incident[static_cast<std::size_t>(k)];
-        const int part = label[static_cast<std::size_t>(graph.other_face(e, waiting.face))];
+        const int e = graph.incident[at(k)];
+        const int part = label[at(graph.other_face(e, waiting.face))];
         const auto place = std::lower_bound(waiting.candidates.begin(), waiting.candidates.end(), part);
         if (place == waiting.candidates.end() || *place != part) continue;
-        double& length = shared[static_cast<std::size_t>(place - waiting.candidates.begin())];
-        length = std::max(length, 0.0) + graph.edges[static_cast<std::size_t>(e)].length;
+        double& length = shared[at(place - waiting.candidates.begin())];
+        length = std::max(length, 0.0) + graph.edges[at(e)].length;
     }
     const auto most = std::max_element(shared.begin(), shared.end());
-    return *most < 0.0 ? undecided : waiting.candidates[static_cast<std::size_t>(most - shared.begin())];
+    return *most < 0.0 ? undecided : waiting.candidates[at(most - shared.begin())];
 }
 
 /// One round; returns whether any waiting face was decided.
@@ -63,7 +64,7 @@ bool decide_by_neighbors(const DualGraph& graph, std::vector<int>& label, std::v
         decision[w] = part_by_neighbors(graph, label, waiting[w]);
     std::vector<WaitingFace> still;
     for (std::size_t w = 0; w < waiting.size(); ++w) {
-        label[static_cast<std::size_t>(waiting[w].face)] = decision[w];
+        label[at(waiting[w].face)] = decision[w];
         if (decision[w] == undecided) still.push_back(waiting[w]);
     }
     const bool any = still.size() < waiting.size();
@@ -84,7 +85,7 @@ std::vector<int> vote_face_labels(const std::vector<std::vector<int>>& oversegme
     for (std::size_t f = 0; f < label.size(); ++f) {
         votes.assign(static_cast<std::size_t>(parts), 0);
         for (std::size_t o = 0; o < oversegmentations.size(); ++o) {
-            ++votes[static_cast<std::size_t>(checked_part(part_of_patch, o, oversegmentations[o][f], parts))];
+            ++votes[at(checked_part(part_of_patch, o, oversegmentations[o][f], parts))];
         }
         std::vector<int> candidates = most_frequent(votes);
         if (candidates.size() == 1) {
@@ -95,7 +96,7 @@ std::vector<int> vote_face_labels(const std::vector<std::vector<int>>& oversegme
     }
     while (!waiting.empty() && decide_by_neighbors(graph, label, waiting)) {
     }
-    for (const WaitingFace& w : waiting) label[static_cast<std::size_t>(w.face)] = w.candidates.front();
+    for (const WaitingFace& w : waiting) label[at(w.face)] = w.candidates.front();
     return label;
 }
 

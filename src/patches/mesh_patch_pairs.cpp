@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -27,8 +29,8 @@ std::vector<PatchNeighbors> patch_neighbors(const DualGraph& graph, const std::v
                                             const Eigen::VectorXd& vertex_minimum_curvature) {
     std::vector<PatchNeighbors> contacts;  // one an edge first, `concavity` times length, then added up
     for (const DualEdge& e : graph.edges) {
-        const int a = patch_of_face[static_cast<std::size_t>(e.face_a)];
-        const int b = patch_of_face[static_cast<std::size_t>(e.face_b)];
+        const int a = patch_of_face[at(e.face_a)];
+        const int b = patch_of_face[at(e.face_b)];
         if (a == b) continue;
         const double mean_curvature =
             e.is_virtual
@@ -59,9 +61,7 @@ std::vector<PatchOverlap> patch_overlaps(const FaceGeometry& geometry, const std
                                          const std::vector<int>& patches_b) {
     const Eigen::VectorXd area_a = patch_areas(geometry, patches_a, patch_count(patches_a));
     const Eigen::VectorXd area_b = patch_areas(geometry, patches_b, patch_count(patches_b));
-    const auto pair_of = [&](int f) {
-        return std::pair(patches_a[static_cast<std::size_t>(f)], patches_b[static_cast<std::size_t>(f)]);
-    };
+    const auto pair_of = [&](int f) { return std::pair(patches_a[at(f)], patches_b[at(f)]); };
     std::vector<int> faces(patches_a.size());
     std::iota(faces.begin(), faces.end(), 0);
     std::stable_sort(faces.begin(), faces.end(), [&](int f, int g) { return pair_of(f) < pair_of(g); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/pictures/color_scale.hpp"
 #include "src/pictures/lettering.hpp"
 #include "src/pictures/shape_picture.hpp"
@@ -106,7 +107,7 @@ Image contact_sheet(const std::vector<SheetTile>& tiles, const SheetHeading& hea
     for (int k = 0; k < count; ++k) {
         const int left = (width - grid_width) / 2 + (k % columns) * (tile + gutter);
         const int cell_top = top + (k / columns) * cell;
-        const SheetTile& shape = tiles[static_cast<std::size_t>(k)];
+        const SheetTile& shape = tiles[at(k)];
         paste(page, shape.picture, left, cell_top);
         draw_caption(page, shape.caption, left, cell_top + tile + 4, tile);
     }

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -26,7 +28,7 @@ constexpr std::array<Color, part_color_count> colors{{
 
 Color part_color(int part) {
     const int index = (part % part_color_count + part_color_count) % part_color_count;
-    return colors[static_cast<std::size_t>(index)];
+    return colors[at(index)];
 }
 
 }  // namespace coseg

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "src/base/index.hpp"
 #include "src/mesh/polygon_triangulation.hpp"
 #include "src/mesh/vertex_welding.hpp"
 
@@ -32,7 +33,7 @@ void scale_into_unit_ball(TriMesh& mesh) {
 std::vector<std::vector<int>> triangles_of_vertices(const TriMesh& mesh) {
     std::vector<std::vector<int>> triangles(static_cast<std::size_t>(mesh.vertex_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
-        for (int k = 0; k < 3; ++k) triangles[static_cast<std::size_t>(mesh.faces(k, f))].push_back(f);
+        for (int k = 0; k < 3; ++k) triangles[at(mesh.faces(k, f))].push_back(f);
     }
     return triangles;
 }
@@ -60,21 +61,17 @@ PictureMesh picture_mesh(const PolygonMesh& mesh, const std::vector<Color>& colo
         std::vector<Eigen::Vector3d> corners;
         const auto face = static_cast<std::size_t>(f);
         for (int k = mesh.offsets[face]; k < mesh.offsets[face + 1]; ++k) {
-            vertices.push_back(
-                stand_for[static_cast<std::size_t>(mesh.corners[static_cast<std::size_t>(k)])]);
-            corners.push_back(mesh.vertices[static_cast<std::size_t>(vertices.back())]);
+            vertices.push_back(stand_for[at(mesh.corners[at(k)])]);
+            corners.push_back(mesh.vertices[at(vertices.back())]);
         }
         for (const Eigen::Vector3i& t : triangulate_polygon(corners)) {
-            triangles.emplace_back(vertices[static_cast<std::size_t>(t[0])],
-                                   vertices[static_cast<std::size_t>(t[1])],
-                                   vertices[static_cast<std::size_t>(t[2])]);
+            triangles.emplace_back(vertices[at(t[0])], vertices[at(t[1])], vertices[at(t[2])]);
             picture.colors.push_back(color_of_face[face]);
             picture.faces.push_back(f);
         }
     }
     picture.mesh.vertices.resize(3, mesh.vertex_count());
-    for (int v = 0; v < mesh.vertex_count(); ++v)
-        picture.mesh.vertices.col(v) = mesh.vertices[static_cast<std::size_t>(v)];
+    for (int v = 0; v < mesh.vertex_count(); ++v) picture.mesh.vertices.col(v) = mesh.vertices[at(v)];
     picture.mesh.faces.resize(3, static_cast<Eigen::Index>(triangles.size()));
     for (std::size_t t = 0; t < triangles.size(); ++t)
         picture.mesh.faces.col(static_cast<Eigen::Index>(t)) = triangles[t];
@@ -98,7 +95,7 @@ Eigen::Matrix3Xf corner_normals(const TriMesh& mesh, double crease_degrees) {
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) {
             Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-            for (const int other : around[static_cast<std::size_t>(mesh.faces(k, f))]) {
+            for (const int other : around[at(mesh.faces(k, f))]) {
                 if (unit.col(other).dot(unit.col(f)) >= least_cosine) sum += weighted.col(other);
             }
             normals.col(3 * static_cast<Eigen::Index>(f) + k) = sum.normalized().cast<float>();

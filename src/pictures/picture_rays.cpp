@@ -6,6 +6,7 @@
 #include <string>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -88,8 +89,7 @@ std::array<PictureRays::Hit, PictureRays::packet> PictureRays::look(
     alignas(64) RTCRayHit16 batch{};
     alignas(64) const std::array<int, packet> valid = all_valid;
     for (int i = 0; i < packet; ++i) {
-        set_ray(batch.ray, i, eye, directions[static_cast<std::size_t>(i)], 0.0F,
-                std::numeric_limits<float>::infinity());
+        set_ray(batch.ray, i, eye, directions[at(i)], 0.0F, std::numeric_limits<float>::infinity());
         batch.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
     RTCIntersectContext context;
@@ -99,8 +99,8 @@ std::array<PictureRays::Hit, PictureRays::packet> PictureRays::look(
     std::array<Hit, packet> hits;
     for (int i = 0; i < packet; ++i) {
         if (batch.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-        hits[static_cast<std::size_t>(i)] = {static_cast<int>(batch.hit.primID[i]), batch.hit.u[i],
-                                             batch.hit.v[i], batch.ray.tfar[i]};
+        hits[at(i)] = {static_cast<int>(batch.hit.primID[i]), batch.hit.u[i], batch.hit.v[i],
+                       batch.ray.tfar[i]};
     }
     return hits;
 }
@@ -109,8 +109,7 @@ int PictureRays::blocked(const Eigen::Vector3f& from, const std::array<Eigen::Ve
                          float reach) const {
     alignas(64) RTCRay16 batch{};
     alignas(64) const std::array<int, packet> valid = all_valid;
-    for (int i = 0; i < packet; ++i)
-        set_ray(batch, i, from, directions[static_cast<std::size_t>(i)], 0.0F, reach);
+    for (int i = 0; i < packet; ++i) set_ray(batch, i, from, directions[at(i)], 0.0F, reach);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded16(valid.data(), scene_->scene.get(), &context, &batch);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/base/index.hpp"
 #include "src/pictures/picture_rays.hpp"
 
 namespace coseg {
@@ -85,8 +86,7 @@ class Painter {
           rays_(picture.mesh),
           normals_(corner_normals(picture.mesh, crease_degrees)),
           pixels_(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_)) {
-        for (int i = 0; i < 256; ++i)
-            light_of_byte_[static_cast<std::size_t>(i)] = static_cast<float>(linear_of_srgb(i / 255.0));
+        for (int i = 0; i < 256; ++i) light_of_byte_[at(i)] = static_cast<float>(linear_of_srgb(i / 255.0));
     }
 
     Image paint(const Color& background) {
@@ -97,7 +97,7 @@ class Painter {
     }
 
   private:
-    [[nodiscard]] Pixel& pixel(int x, int y) { return pixels_[static_cast<std::size_t>(y * size_ + x)]; }
+    [[nodiscard]] Pixel& pixel(int x, int y) { return pixels_[at(y * size_ + x)]; }
 
     void look();
     void shade(Pixel& pixel, const PictureRays::Hit& hit, const Vector3f& direction) const;
@@ -122,17 +122,16 @@ void Painter::look() {
         Directions directions;
         for (int i = 0; i < packet; ++i) {
             const int number = std::min(first + i / samples, count - 1);
-            const auto& place = sample_places[static_cast<std::size_t>(i % samples)];
+            const auto& place = sample_places[at(i % samples)];
             const int row = number / size_;
-            directions[static_cast<std::size_t>(i)] = camera_.direction(
-                static_cast<float>(number % size_) + place[0], static_cast<float>(row) + place[1], size_);
+            directions[at(i)] = camera_.direction(static_cast<float>(number % size_) + place[0],
+                                                  static_cast<float>(row) + place[1], size_);
         }
         const auto hits = rays_.look(camera_.eye, directions);
         for (int i = 0; i < packet; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const int number = first + i / samples;
-            if (number < count && hits[k].triangle >= 0)
-                shade(pixels_[static_cast<std::size_t>(number)], hits[k], directions[k]);
+            if (number < count && hits[k].triangle >= 0) shade(pixels_[at(number)], hits[k], directions[k]);
         }
     }
 }
@@ -155,8 +154,8 @@ void Painter::shade(Pixel& pixel, const PictureRays::Hit& hit, const Vector3f& d
     if (normal.dot(flat) < 0.0F) normal = -normal;
 
     Vector3f albedo;
-    const Color& color = picture_.colors[static_cast<std::size_t>(hit.triangle)];
-    for (int k = 0; k < 3; ++k) albedo[k] = light_of_byte_[color[static_cast<std::size_t>(k)]];
+    const Color& color = picture_.colors[at(hit.triangle)];
+    for (int k = 0; k < 3; ++k) albedo[k] = light_of_byte_[color[at(k)]];
     const float share = 1.0F / samples;
     const float above = 0.5F + 0.5F * normal.dot(camera_.up);
     const float facing = std::max(0.0F, normal.dot(camera_.towards));
@@ -196,8 +195,8 @@ Pattern sky_pattern() {
             const float turn =
                 2.0F * std::numbers::pi_v<float> * radical_inverse(static_cast<unsigned>(number * 7 + cell));
             const float radius = std::sqrt(height);
-            cells[static_cast<std::size_t>(cell)][static_cast<std::size_t>(i)] = {
-                radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1.0F - height)};
+            cells[at(cell)][at(i)] = {radius * std::cos(turn), radius * std::sin(turn),
+                                      std::sqrt(1.0F - height)};
         }
     }
     return cells;
@@ -211,7 +210,7 @@ void Painter::light() {
         for (int x = 0; x < size_; ++x) {
             Pixel& here = pixel(x, y);
             if (here.normal.isZero()) continue;
-            const Directions& cell = cells[static_cast<std::size_t>((y % pattern) * pattern + x % pattern)];
+            const Directions& cell = cells[at((y % pattern) * pattern + x % pattern)];
             const Eigen::Matrix3f to_normal =
                 Eigen::Quaternionf::FromTwoVectors(Vector3f::UnitZ(), here.normal).toRotationMatrix();
             Directions sky;
@@ -250,7 +249,7 @@ void Painter::smooth_light() {
                     sum[2] += weight;
                 }
             }
-            smooth[static_cast<std::size_t>(y * size_ + x)] = {sum[0] / sum[2], sum[1] / sum[2]};
+            smooth[at(y * size_ + x)] = {sum[0] / sum[2], sum[1] / sum[2]};
         }
     }
     for (std::size_t i = 0; i < pixels_.size(); ++i) {

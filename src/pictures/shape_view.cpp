@@ -10,6 +10,8 @@
 #include <limits>
 #include <numbers>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -76,7 +78,7 @@ void cover(Raster& covered, const std::array<Eigen::Vector2d, 3>& corners) {
             const double py = y + 0.5;
             if (turn * edge_side(a, b, px, py) >= 0.0 && turn * edge_side(b, c, px, py) >= 0.0 &&
                 turn * edge_side(c, a, px, py) >= 0.0)
-                covered[static_cast<std::size_t>(y * raster + x)] = 1;
+                covered[at(y * raster + x)] = 1;
         }
     }
 }
@@ -92,8 +94,7 @@ double outline_area(const TriMesh& mesh, const View& view) {
     Raster covered{};
     for (int f = 0; f < mesh.face_count(); ++f) {
         std::array<Eigen::Vector2d, 3> corners;
-        for (int k = 0; k < 3; ++k)
-            corners[static_cast<std::size_t>(k)] = (points.col(mesh.faces(k, f)) - low) * scale;
+        for (int k = 0; k < 3; ++k) corners[at(k)] = (points.col(mesh.faces(k, f)) - low) * scale;
         cover(covered, corners);
     }
     const auto count = std::count(covered.begin(), covered.end(), std::uint8_t{1});

@@ -99,7 +99,7 @@ class Remesher {
         std::vector<Eigen::Vector3i> segments;
         TriMesh mesh;
         mesh.vertices.resize(3, static_cast<Eigen::Index>(kernel_.n_vertices()));
-        for (const VertexHandle v : kernel_.vertices()) mesh.vertices.col(v.idx()) = at(v);
+        for (const VertexHandle v : kernel_.vertices()) mesh.vertices.col(v.idx()) = point_of(v);
         for (const EdgeHandle e : kernel_.edges()) {
             if (!is_line(e)) continue;
             const HalfedgeHandle h = kernel_.halfedge_handle(e, 0);
@@ -126,7 +126,7 @@ class Remesher {
     [[nodiscard]] TriMesh mesh() const { return from_kernel(kernel_); }
 
   private:
-    [[nodiscard]] Vector3d at(VertexHandle v) const { return from_point(kernel_.point(v)); }
+    [[nodiscard]] Vector3d point_of(VertexHandle v) const { return from_point(kernel_.point(v)); }
 
     [[nodiscard]] bool is_line(EdgeHandle e) const { return kernel_.status(e).feature(); }
 
@@ -144,8 +144,8 @@ class Remesher {
 
     [[nodiscard]] Vector3d face_vector(FaceHandle f) const {
         const HalfedgeHandle h = kernel_.halfedge_handle(f);
-        return area_vector(at(kernel_.from_vertex_handle(h)), at(kernel_.to_vertex_handle(h)),
-                           at(kernel_.to_vertex_handle(kernel_.next_halfedge_handle(h))));
+        return area_vector(point_of(kernel_.from_vertex_handle(h)), point_of(kernel_.to_vertex_handle(h)),
+                           point_of(kernel_.to_vertex_handle(kernel_.next_halfedge_handle(h))));
     }
 
     [[nodiscard]] Hold hold(VertexHandle v) const {
@@ -155,7 +155,7 @@ class Remesher {
         int lines = 0;
         for (const HalfedgeHandle h : kernel_.voh_range(v)) {
             if (!is_line(kernel_.edge_handle(h))) continue;
-            if (lines < 2) directions[lines] = (at(kernel_.to_vertex_handle(h)) - at(v)).normalized();
+            if (lines < 2) directions[lines] = (point_of(kernel_.to_vertex_handle(h)) - point_of(v)).normalized();
             ++lines;
         }
         if (lines == 0) return Hold::free;
@@ -164,7 +164,7 @@ class Remesher {
 
     [[nodiscard]] double length(EdgeHandle e) const {
         const HalfedgeHandle h = kernel_.halfedge_handle(e, 0);
-        return (at(kernel_.to_vertex_handle(h)) - at(kernel_.from_vertex_handle(h))).norm();
+        return (point_of(kernel_.to_vertex_handle(h)) - point_of(kernel_.from_vertex_handle(h))).norm();
     }
 
     [[nodiscard]] double wanted_length(VertexHandle v) const { return kernel_.property(wanted_, v); }
@@ -196,7 +196,7 @@ class Remesher {
         for (const VertexHandle v : kernel_.vertices()) {
             double curvature = turn_per_edge / options_.edge_length;
             for (const VertexHandle n : kernel_.vv_range(v)) {
-                const double step = (at(n) - at(v)).norm();
+                const double step = (point_of(n) - point_of(v)).norm();
                 if (normals.empty() || step < 0.5 * shortest) continue;  // short edges of the input are noise
                 curvature = std::max(curvature, (normals[n.idx()] - normals[v.idx()]).norm() / step);
             }
@@ -237,7 +237,7 @@ class Remesher {
         const VertexHandle a = kernel_.from_vertex_handle(h);
         const VertexHandle b = kernel_.to_vertex_handle(h);
         const bool line = is_line(e);
-        const VertexHandle middle = kernel_.add_vertex(to_point(0.5 * (at(a) + at(b))));
+        const VertexHandle middle = kernel_.add_vertex(to_point(0.5 * (point_of(a) + point_of(b))));
         kernel_.property(wanted_, middle) = 0.5 * (wanted_length(a) + wanted_length(b));
         kernel_.split(e, middle);
         for (const HalfedgeHandle spoke : kernel_.voh_range(middle)) {
@@ -264,7 +264,7 @@ class Remesher {
         if (!kernel_.is_collapse_ok(h)) return false;
         // Onto the end point, not the middle: a row of middles would shrink thin limbs away from their
         // surface.
-        if (!is_move_ok(from, to, at(to))) return false;
+        if (!is_move_ok(from, to, point_of(to))) return false;
         std::array<VertexHandle, 2> opposite{VertexHandle(), VertexHandle()};
         for (int side = 0; side < 2; ++side) {
             const HalfedgeHandle s = side == 0 ? h : kernel_.opposite_halfedge_handle(h);
@@ -295,12 +295,12 @@ class Remesher {
         for (const HalfedgeHandle h : kernel_.voh_range(v)) {
             const VertexHandle a = kernel_.to_vertex_handle(h);
             const double longest = 4.0 / 3.0 * std::min(wanted, wanted_length(a));
-            if (a != partner && (at(a) - target).squaredNorm() > longest * longest) return false;
+            if (a != partner && (point_of(a) - target).squaredNorm() > longest * longest) return false;
             if (kernel_.is_boundary(h)) continue;
             const VertexHandle b = kernel_.to_vertex_handle(kernel_.next_halfedge_handle(h));
             if (a == partner || b == partner) continue;
-            const Vector3d before = area_vector(at(v), at(a), at(b));
-            const Vector3d after = area_vector(target, at(a), at(b));
+            const Vector3d before = area_vector(point_of(v), point_of(a), point_of(b));
+            const Vector3d after = area_vector(target, point_of(a), point_of(b));
             if (before.dot(after) <= 0.5 * before.norm() * after.norm()) return false;
         }
         return true;
@@ -340,12 +340,12 @@ class Remesher {
                                    excess_neighbours(q.d)};
         const int gain = std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]) + std::abs(x[3]) -
                          std::abs(x[0] - 1) - std::abs(x[1] - 1) - std::abs(x[2] + 1) - std::abs(x[3] + 1);
-        const Vector3d first = area_vector(at(q.a), at(q.b), at(q.c));
-        const Vector3d second = area_vector(at(q.a), at(q.d), at(q.b));
+        const Vector3d first = area_vector(point_of(q.a), point_of(q.b), point_of(q.c));
+        const Vector3d second = area_vector(point_of(q.a), point_of(q.d), point_of(q.b));
         if (first.dot(second) > bent * first.norm() * second.norm()) return gain > 0;
         const Vector3d normal = (first + second).normalized();
         const auto off_surface = [&](VertexHandle from, VertexHandle to) {
-            const Vector3d middle = 0.5 * (at(from) + at(to));
+            const Vector3d middle = 0.5 * (point_of(from) + point_of(to));
             return (project(middle, normal) - middle).norm();
         };
         const double now = off_surface(q.a, q.b);
@@ -356,10 +356,10 @@ class Remesher {
 
     /// Whether triangles (a, d, c) and (d, b, c) may stand for (a, b, c) and (a, d, b) without folding over.
     [[nodiscard]] bool is_flip_flat(VertexHandle a, VertexHandle b, VertexHandle c, VertexHandle d) const {
-        const Vector3d pa = at(a);
-        const Vector3d pb = at(b);
-        const Vector3d pc = at(c);
-        const Vector3d pd = at(d);
+        const Vector3d pa = point_of(a);
+        const Vector3d pb = point_of(b);
+        const Vector3d pc = point_of(c);
+        const Vector3d pd = point_of(d);
         const Vector3d old_sum = area_vector(pa, pb, pc) + area_vector(pa, pd, pb);
         const Vector3d first = area_vector(pa, pd, pc);
         const Vector3d second = area_vector(pd, pb, pc);
@@ -385,7 +385,7 @@ class Remesher {
     [[nodiscard]] Vector3d relaxed_point(VertexHandle v, const Vector3d& normal,
                                          const std::vector<double>& area, const SurfaceProjection& project,
                                          const LineProjection& project_line) const {
-        Vector3d p = at(v);
+        Vector3d p = point_of(v);
         const Hold held = hold(v);
         if (held == Hold::corner || kernel_.is_isolated(v)) return p;
         Vector3d sum = Vector3d::Zero();
@@ -394,7 +394,7 @@ class Remesher {
             if (held == Hold::line && !is_line(kernel_.edge_handle(h))) continue;
             const VertexHandle n = kernel_.to_vertex_handle(h);
             const double weight = held == Hold::line ? 1.0 : area[n.idx()];
-            sum += weight * at(n);
+            sum += weight * point_of(n);
             weights += weight;
         }
         if (!(weights > 0.0)) return p;

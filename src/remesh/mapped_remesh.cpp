@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/closest_point.hpp"
 #include "src/mesh/face_geometry.hpp"
 #include "src/remesh/isotropic_remesh.hpp"
@@ -12,8 +13,6 @@
 namespace coseg {
 
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double sharp_angle = 0.52;    // radians: creases of drawn solids stay, the facets of round ones go
 constexpr double smallest_share = 0.5;  // thin limbs keep triangles that fit around them

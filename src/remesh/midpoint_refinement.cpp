@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/edge_groups.hpp"
 
 namespace coseg {
@@ -15,8 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3i;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Half-edge h = 3 f + k runs from corner k to corner k + 1 of face f; twin_[h] is the other side, -1 at a
 /// boundary.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "src/base/index.hpp"
 #include "src/mesh/edge_groups.hpp"
 
 namespace coseg {
@@ -13,8 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3i;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A neighbour across a split may be degenerate itself and pass the split on; the rest is dropped with a gap.
 constexpr int max_rounds = 16;

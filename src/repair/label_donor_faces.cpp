@@ -6,13 +6,13 @@
 #include <nanoflann.hpp>
 #include <tuple>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Vector3d corner_mean(const PolygonMesh& mesh, int face) {
     Vector3d sum = Vector3d::Zero();

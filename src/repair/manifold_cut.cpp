@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "src/base/index.hpp"
 #include "src/mesh/edge_groups.hpp"
 
 namespace coseg {
@@ -16,8 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3i;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A closed component is flat, and its volume says nothing, below this share of area^(3/2).
 constexpr double flat_volume = 1e-12;

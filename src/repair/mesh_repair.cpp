@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/polygon_triangulation.hpp"
 #include "src/mesh/vertex_welding.hpp"
 #include "src/repair/degenerate_faces.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3i;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void check_input(const PolygonMesh& input, const std::string& name) {
     for (int v = 0; v < input.vertex_count(); ++v) {
