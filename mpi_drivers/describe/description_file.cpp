@@ -16,8 +16,8 @@ namespace {
 constexpr const char* path_mark = "<path>";
 
 std::string replaced(const std::string& text, const std::string& what, const std::string& by) {
-    const std::size_t at = text.find(what);
-    return at == std::string::npos ? text : text.substr(0, at) + by + text.substr(at + what.size());
+    const std::size_t found = text.find(what);
+    return found == std::string::npos ? text : text.substr(0, found) + by + text.substr(found + what.size());
 }
 
 template <class T, class Item, class Get>

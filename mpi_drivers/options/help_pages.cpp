@@ -17,8 +17,8 @@ class FoldingFormatter : public CLI::Formatter {
     std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
         folds_ = mode != CLI::AppFormatMode::All;
         std::string help = CLI::Formatter::make_help(app, std::move(name), mode);
-        for (std::size_t at = help.find("\n\n\n"); at != std::string::npos; at = help.find("\n\n\n"))
-            help.erase(at, 1);
+        for (std::size_t gap = help.find("\n\n\n"); gap != std::string::npos; gap = help.find("\n\n\n"))
+            help.erase(gap, 1);
         return help;
     }
 

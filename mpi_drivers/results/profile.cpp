@@ -56,7 +56,7 @@ std::vector<RankTrace> gathered_traces(const Comm& comm, const RankTrace& local)
     numbers = all_gather(comm, std::span<const double>(numbers));
     std::vector<RankTrace> traces(static_cast<std::size_t>(comm.size()));
     for (std::size_t k = 0; 2 * k < texts.size(); ++k) {
-        traces[at(numbers[3 * k])].push_back(
+        traces[static_cast<std::size_t>(numbers[3 * k])].push_back(
             {texts[2 * k], texts[2 * k + 1], numbers[3 * k + 1], numbers[3 * k + 2]});
     }
     return traces;

@@ -47,8 +47,8 @@ double MeshScopeColumn::shrink_groups(double step) {
     for (std::size_t g = 0; g + 1 < column_.group_begin.size(); ++g) {
         const auto begin = static_cast<std::size_t>(column_.group_begin[g]) * features;
         const auto end = static_cast<std::size_t>(column_.group_begin[g + 1]) * features;
-        for (std::size_t at = begin; at < end; ++at)
-            trial_weights_[at] = column_.weights[at] - step * gradient_[at];
+        for (std::size_t entry = begin; entry < end; ++entry)
+            trial_weights_[entry] = column_.weights[entry] - step * gradient_[entry];
         const double sum =
             exclusive_shrink(std::span(trial_weights_).subspan(begin, end - begin), stack_.features, step,
                              penalties_.alpha, penalties_.beta, penalties_.lambda, scratch_);
@@ -77,10 +77,10 @@ void MeshScopeColumn::reconstruct_trial() {
 TrialPoint MeshScopeColumn::propose(double step) {
     TrialPoint trial;
     double penalty = shrink_groups(step);
-    for (std::size_t at = 0; at < trial_weights_.size(); ++at) {
-        const double change = trial_weights_[at] - column_.weights[at];
+    for (std::size_t entry = 0; entry < trial_weights_.size(); ++entry) {
+        const double change = trial_weights_[entry] - column_.weights[entry];
         trial.distance2 += change * change;
-        penalty += penalties_.beta * trial_weights_[at];
+        penalty += penalties_.beta * trial_weights_[entry];
     }
     reconstruct_trial();
     double fit = 0.0;

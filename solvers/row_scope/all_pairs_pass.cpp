@@ -329,10 +329,10 @@ PassFindings AllPairsPass::collect(const WorkingSet& working, double lower_bound
     PassFindings findings;
     findings.lower_bound = lower_bound;
     findings.entering.resize(working.fits.size());
-    for (std::size_t at = 0; at < row_best_.size(); ++at) {
-        const std::int64_t column = row_best_[at].place;
+    for (std::size_t entry = 0; entry < row_best_.size(); ++entry) {
+        const std::int64_t column = row_best_[entry].place;
         if (!working.columns.contains(column)) continue;
-        findings.entering[at(column - working.columns.begin)].push_back(static_cast<int>(at / kept));
+        findings.entering[at(column - working.columns.begin)].push_back(static_cast<int>(entry / kept));
     }
     std::int64_t pairs = 0;
     for (std::size_t c = 0; c < findings.entering.size(); ++c) {

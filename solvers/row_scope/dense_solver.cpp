@@ -128,9 +128,9 @@ void DenseModel::measure_tile(std::int64_t begin, std::int64_t end) {
     }
     double tile_fit = 0.0;
     double tile_curvature = 0.0;
-    for (std::int64_t at = begin * rows; at < end * rows; ++at) {
-        const double z = trial_.residual.data()[at];
-        const double change = z - current_.residual.data()[at];
+    for (std::int64_t entry = begin * rows; entry < end * rows; ++entry) {
+        const double z = trial_.residual.data()[entry];
+        const double change = z - current_.residual.data()[entry];
         tile_fit += z * z;
         tile_curvature += change * change;
     }
@@ -147,9 +147,9 @@ TrialPoint DenseModel::finish_trial() {
     double row_curvature = 0.0;
     if (problem_.lambda > 0.0) {
         trial_.row_sums = sums_.field();
-        for (std::size_t at = 0; at < trial_.row_sums.size(); ++at) {
-            const double sum = trial_.row_sums[at];
-            const double change = sum - current_.row_sums[at];
+        for (std::size_t entry = 0; entry < trial_.row_sums.size(); ++entry) {
+            const double sum = trial_.row_sums[entry];
+            const double change = sum - current_.row_sums[entry];
             row_squares += sum * sum;
             row_curvature += change * change;
         }

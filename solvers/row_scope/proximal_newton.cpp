@@ -59,7 +59,7 @@ template <class Add>
 void ProximalNewton::sum_values(Add&& add) {
     add_by_tiles<scalar_count>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
         const auto column = static_cast<std::size_t>(c);
-        for (std::size_t at = offset_[column]; at < offset_[column + 1]; ++at) add(at, tile);
+        for (std::size_t entry = offset_[column]; entry < offset_[column + 1]; ++entry) add(entry, tile);
     });
     sums_.reduce(comm_);
 }
@@ -68,17 +68,17 @@ void ProximalNewton::sum_values(Add&& add) {
 void ProximalNewton::evaluate(Point& point, const std::vector<double>& centre, double reach,
                               std::vector<double>& prices) {
     forward_.resize(centre.size());
-    for (std::size_t at = 0; at < centre.size(); ++at)
-        forward_[at] = centre[at] - 2.0 * reach * (point.dual_product[at] - linear_[at]);
+    for (std::size_t entry = 0; entry < centre.size(); ++entry)
+        forward_[entry] = centre[entry] - 2.0 * reach * (point.dual_product[entry] - linear_[entry]);
     exchange_.to_rows(forward_, by_row_);
     sums_.clear();
     shrink_rows(reach, prices);
     exchange_.to_columns(by_row_, point.weights);
-    sum_values([&](std::size_t at, double* tile) {
-        const double weight = point.weights[at];
-        const double change = weight - centre[at];
-        tile[value] += 2.0 * (point.dual_product[at] - linear_[at]) * weight -
-                       point.dual[at] * point.dual_product[at] + change * change / (2.0 * reach);
+    sum_values([&](std::size_t entry, double* tile) {
+        const double weight = point.weights[entry];
+        const double change = weight - centre[entry];
+        tile[value] += 2.0 * (point.dual_product[entry] - linear_[entry]) * weight -
+                       point.dual[entry] * point.dual_product[entry] + change * change / (2.0 * reach);
         tile[distance2] += change * change;
     });
     point.value = sums_.overflowed() ? -std::numeric_limits<double>::infinity()
@@ -90,9 +90,9 @@ void ProximalNewton::evaluate(Point& point, const std::vector<double>& centre, d
 void ProximalNewton::differentiate(Point& point) {
     apply(point.weights, point.product);
     sums_.clear();
-    sum_values([&](std::size_t at, double* tile) {
+    sum_values([&](std::size_t entry, double* tile) {
         tile[gradient2] +=
-            (point.product[at] - point.dual_product[at]) * (point.weights[at] - point.dual[at]);
+            (point.product[entry] - point.dual_product[entry]) * (point.weights[entry] - point.dual[entry]);
     });
     point.gradient2 = std::max(sums_.scalar(gradient2), 0.0);
 }
@@ -101,15 +101,15 @@ void ProximalNewton::differentiate(Point& point) {
 double ProximalNewton::find_direction(double reach) {
     const std::size_t count = current_.weights.size();
     direction_.resize(count);
-    for (std::size_t at = 0; at < count; ++at)
-        direction_[at] = 2.0 * (current_.dual_product[at] - current_.product[at]);
+    for (std::size_t entry = 0; entry < count; ++entry)
+        direction_[entry] = 2.0 * (current_.dual_product[entry] - current_.product[entry]);
     const std::vector<double>& change = newton_.solve(current_.weights, direction_, 1.0 / reach);
-    for (std::size_t at = 0; at < count; ++at)
-        direction_[at] = current_.weights[at] + change[at] - current_.dual[at];
+    for (std::size_t entry = 0; entry < count; ++entry)
+        direction_[entry] = current_.weights[entry] + change[entry] - current_.dual[entry];
     apply(direction_, direction_product_);
     sums_.clear();
-    sum_values([&](std::size_t at, double* tile) {
-        tile[value] += 2.0 * (current_.product[at] - current_.dual_product[at]) * direction_[at];
+    sum_values([&](std::size_t entry, double* tile) {
+        tile[value] += 2.0 * (current_.product[entry] - current_.dual_product[entry]) * direction_[entry];
     });
     return sums_.scalar(value);
 }
@@ -124,9 +124,9 @@ bool ProximalNewton::step_along_direction(const std::vector<double>& centre, dou
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * stack_.squared_norm;
     double size = 1.0;
     for (int halving = 0; halving < halving_limit; ++halving, size *= 0.5) {
-        for (std::size_t at = 0; at < count; ++at) {
-            trial_.dual[at] = current_.dual[at] + size * direction_[at];
-            trial_.dual_product[at] = current_.dual_product[at] + size * direction_product_[at];
+        for (std::size_t entry = 0; entry < count; ++entry) {
+            trial_.dual[entry] = current_.dual[entry] + size * direction_[entry];
+            trial_.dual_product[entry] = current_.dual_product[entry] + size * direction_product_[entry];
         }
         evaluate(trial_, centre, reach, prices);
         if (trial_.value < current_.value + sufficient_increase * size * slope - rounding) continue;

@@ -66,7 +66,7 @@ void RowProx::evaluate(std::span<const double> v, double step, std::span<const d
         curvature_[h * features_ + h] = 1.0 / (2.0 * lambda_);
         dual_ += price[h] * price[h] / (4.0 * lambda_);
     }
-    for (std::size_t at = 0; at < v.size(); at += features_) add_pair(v.data() + at, step, price);
+    for (std::size_t entry = 0; entry < v.size(); entry += features_) add_pair(v.data() + entry, step, price);
 }
 
 /// direction = -curvature^-1 slope, by Cholesky in place of the lower triangle. False if rounding leaves
@@ -96,9 +96,9 @@ bool RowProx::solve_direction() {
 }
 
 void RowProx::apply(std::span<double> v, double step, std::span<const double> price) const {
-    for (std::size_t at = 0; at < v.size(); at += features_) {
-        for (std::size_t h = 0; h < features_; ++h) v[at + h] -= step * price[h];
-        shrink_group(v.subspan(at, features_), step, alpha_, beta_);
+    for (std::size_t entry = 0; entry < v.size(); entry += features_) {
+        for (std::size_t h = 0; h < features_; ++h) v[entry + h] -= step * price[h];
+        shrink_group(v.subspan(entry, features_), step, alpha_, beta_);
     }
 }
 
@@ -133,11 +133,11 @@ void RowProx::shrink(std::span<double> v, double step, std::span<double> price) 
 double RowProx::penalty(std::span<const double> w, std::span<double> sums) const {
     std::fill(sums.begin(), sums.end(), 0.0);
     double result = 0.0;
-    for (std::size_t at = 0; at < w.size(); at += features_) {
+    for (std::size_t entry = 0; entry < w.size(); entry += features_) {
         double squares = 0.0;
         for (std::size_t h = 0; h < features_; ++h) {
-            sums[h] += w[at + h];
-            squares += w[at + h] * w[at + h];
+            sums[h] += w[entry + h];
+            squares += w[entry + h] * w[entry + h];
         }
         result += alpha_ * std::sqrt(squares);
     }

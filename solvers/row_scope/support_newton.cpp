@@ -43,8 +43,9 @@ void SupportNewton::sum_along_rows(const std::vector<double>& vector) {
     for (std::int64_t r = 0; r < exchange_.owned_rows().size(); ++r) {
         const std::span<double> row = exchange_.row(by_row_, r);
         std::fill(sums.begin(), sums.end(), 0.0);
-        for (std::size_t at = 0; at < row.size(); ++at) sums[at % features] += row[at];
-        for (std::size_t at = 0; at < row.size(); ++at) row[at] = 2.0 * problem_.lambda * sums[at % features];
+        for (std::size_t entry = 0; entry < row.size(); ++entry) sums[entry % features] += row[entry];
+        for (std::size_t entry = 0; entry < row.size(); ++entry)
+            row[entry] = 2.0 * problem_.lambda * sums[entry % features];
     }
     exchange_.to_columns(by_row_, row_part_);
 }
@@ -65,16 +66,17 @@ void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weig
         Block& block = blocks_[c * features + h];
         block.places.clear();
         block.hessian.resize(0, 0);
-        for (std::size_t at = offset_[c] + h; at < offset_[c + 1]; at += features) {
-            if (weights[at] > 0.0) block.places.push_back(at);
+        for (std::size_t entry = offset_[c] + h; entry < offset_[c + 1]; entry += features) {
+            if (weights[entry] > 0.0) block.places.push_back(entry);
         }
         const auto count = static_cast<Eigen::Index>(block.places.size());
         Eigen::VectorXd curvature(count);
         for (Eigen::Index k = 0; k < count; ++k) {
-            const std::size_t at = block.places[at(k)];
-            const double along = weights[at] * inverse_norm_[at / features];
-            curvature[k] = 2.0 * problem_.lambda + added +
-                           problem_.alpha * inverse_norm_[at / features] * std::max(1.0 - along * along, 0.0);
+            const std::size_t entry = block.places[at(k)];
+            const double along = weights[entry] * inverse_norm_[entry / features];
+            curvature[k] =
+                2.0 * problem_.lambda + added +
+                problem_.alpha * inverse_norm_[entry / features] * std::max(1.0 - along * along, 0.0);
         }
         Eigen::MatrixXd hessian = 2.0 * gram_of(c, h, block.places);
         const Eigen::VectorXd diagonal = (1.0 + regularization) * hessian.diagonal() + curvature;
@@ -122,7 +124,7 @@ void SupportNewton::apply_fit(const std::vector<double>& vector, std::vector<dou
                 return !block.places.empty() && block.hessian.size() == 0;
             })) {
             apply_gram(stack_, fits_[c], vector.data() + offset_[c], result.data() + offset_[c]);
-            for (std::size_t at = offset_[c]; at < offset_[c + 1]; ++at) result[at] *= 2.0;
+            for (std::size_t entry = offset_[c]; entry < offset_[c + 1]; ++entry) result[entry] *= 2.0;
             continue;
         }
         for (const Block* block = first; block != first + features; ++block) {
@@ -143,11 +145,13 @@ void SupportNewton::apply(const std::vector<double>& vector, const std::vector<d
     for (std::size_t p = 0; p < inverse_norm_.size(); ++p) {
         const double inverse = inverse_norm_[p];
         double along = 0.0;
-        for (std::size_t at = p * features; at < (p + 1) * features; ++at)
-            along += weights[at] * inverse * vector[at];
-        for (std::size_t at = p * features; at < (p + 1) * features; ++at) {
-            const double group = problem_.alpha * inverse * (vector[at] - along * weights[at] * inverse);
-            result[at] = weights[at] > 0.0 ? result[at] + row_part_[at] + group + added * vector[at] : 0.0;
+        for (std::size_t entry = p * features; entry < (p + 1) * features; ++entry)
+            along += weights[entry] * inverse * vector[entry];
+        for (std::size_t entry = p * features; entry < (p + 1) * features; ++entry) {
+            const double group =
+                problem_.alpha * inverse * (vector[entry] - along * weights[entry] * inverse);
+            result[entry] =
+                weights[entry] > 0.0 ? result[entry] + row_part_[entry] + group + added * vector[entry] : 0.0;
         }
     }
 }
@@ -171,7 +175,8 @@ double SupportNewton::inner(const std::vector<double>& a, const std::vector<doub
     sums_.clear();
     add_by_tiles<1>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
         const auto column = static_cast<std::size_t>(c);
-        for (std::size_t at = offset_[column]; at < offset_[column + 1]; ++at) tile[0] += a[at] * b[at];
+        for (std::size_t entry = offset_[column]; entry < offset_[column + 1]; ++entry)
+            tile[0] += a[entry] * b[entry];
     });
     sums_.reduce(comm_);
     return sums_.scalar(0);
@@ -182,8 +187,8 @@ const std::vector<double>& SupportNewton::solve(const std::vector<double>& weigh
     measure_groups(weights);
     for (std::size_t c = 0; c < fits_.size(); ++c) factor_column(c, weights, added);
     residual_.resize(weights.size());
-    for (std::size_t at = 0; at < weights.size(); ++at)
-        residual_[at] = weights[at] > 0.0 ? right_side[at] : 0.0;
+    for (std::size_t entry = 0; entry < weights.size(); ++entry)
+        residual_[entry] = weights[entry] > 0.0 ? right_side[entry] : 0.0;
     solution_.assign(weights.size(), 0.0);
     preconditioned_.resize(weights.size());
     image_.assign(weights.size(), 0.0);
@@ -196,14 +201,14 @@ const std::vector<double>& SupportNewton::solve(const std::vector<double>& weigh
         const double curvature = inner(search_, image_);
         if (!(curvature > 0.0)) break;
         const double length = size / curvature;
-        for (std::size_t at = 0; at < weights.size(); ++at) {
-            solution_[at] += length * search_[at];
-            residual_[at] -= length * image_[at];
+        for (std::size_t entry = 0; entry < weights.size(); ++entry) {
+            solution_[entry] += length * search_[entry];
+            residual_[entry] -= length * image_[entry];
         }
         precondition(residual_, preconditioned_);
         const double next = inner(residual_, preconditioned_);
-        for (std::size_t at = 0; at < weights.size(); ++at)
-            search_[at] = preconditioned_[at] + next / size * search_[at];
+        for (std::size_t entry = 0; entry < weights.size(); ++entry)
+            search_[entry] = preconditioned_[entry] + next / size * search_[entry];
         size = next;
     }
     return solution_;

@@ -81,9 +81,9 @@ void WorkingSetModel::shrink_rows(double step) {
     sums_.clear();
     add_by_tiles<1>(exchange_.owned_rows().size(), penalty, sums_, [&](std::int64_t r, double* tile) {
         const std::span<double> row = exchange_.row(by_row_, r);
-        const std::size_t at = static_cast<std::size_t>(r) * features;
-        if (step > 0.0) prox_.shrink(row, step, std::span(prices_).subspan(at, features));
-        tile[0] += prox_.penalty(row, std::span(trial_.row_sums).subspan(at, features));
+        const std::size_t entry = static_cast<std::size_t>(r) * features;
+        if (step > 0.0) prox_.shrink(row, step, std::span(prices_).subspan(entry, features));
+        tile[0] += prox_.penalty(row, std::span(trial_.row_sums).subspan(entry, features));
     });
     exchange_.to_columns(by_row_, trial_.weights);
 }
@@ -93,12 +93,12 @@ void WorkingSetModel::measure_columns() {
         const auto column = static_cast<std::size_t>(c);
         apply_gram(stack_, working_.fits[column], trial_.weights.data() + offset_[column],
                    trial_.product.data() + offset_[column]);
-        for (std::size_t at = offset_[column]; at < offset_[column + 1]; ++at) {
-            const double weight = trial_.weights[at];
-            const double change = weight - current_.weights[at];
-            tile[fit] += weight * (trial_.product[at] - 2.0 * linear_[at]);
+        for (std::size_t entry = offset_[column]; entry < offset_[column + 1]; ++entry) {
+            const double weight = trial_.weights[entry];
+            const double change = weight - current_.weights[entry];
+            tile[fit] += weight * (trial_.product[entry] - 2.0 * linear_[entry]);
             tile[distance2] += change * change;
-            tile[curvature] += 2.0 * change * (trial_.product[at] - current_.product[at]);
+            tile[curvature] += 2.0 * change * (trial_.product[entry] - current_.product[entry]);
         }
     });
 }
@@ -115,8 +115,8 @@ TrialPoint WorkingSetModel::finish_trial() {
 }
 
 TrialPoint WorkingSetModel::propose(double step) {
-    for (std::size_t at = 0; at < forward_.size(); ++at) {
-        forward_[at] = current_.weights[at] - 2.0 * step * (current_.product[at] - linear_[at]);
+    for (std::size_t entry = 0; entry < forward_.size(); ++entry) {
+        forward_[entry] = current_.weights[entry] - 2.0 * step * (current_.product[entry] - linear_[entry]);
     }
     exchange_.to_rows(forward_, by_row_);
     shrink_rows(step);
@@ -143,9 +143,9 @@ double WorkingSetModel::lower_bound() const {
         for (std::size_t c = 0; c < width; ++c) {
             const std::vector<int>& rows = working_.fits[begin + c].rows;
             for (std::size_t p = 0; p < rows.size(); ++p) {
-                const std::size_t at = offset_[begin + c] + p * features;
+                const std::size_t entry = offset_[begin + c] + p * features;
                 for (std::size_t h = 0; h < features; ++h) {
-                    scores[h] = 2.0 * (linear_[at + h] - current_.product[at + h]);
+                    scores[h] = 2.0 * (linear_[entry + h] - current_.product[entry + h]);
                 }
                 bound.check_pair(static_cast<int>(c), rows[p], scores.data(),
                                  2.0 * stack_.inner_product_error());

@@ -94,8 +94,8 @@ double PaperDualBound::raised_cost(const Comm& comm) {
     MPI_Allreduce(MPI_IN_PLACE, raise_.data(), static_cast<int>(raise_.size()), MPI_DOUBLE, MPI_MAX,
                   comm.raw());
     double squares = 0.0;
-    for (std::size_t at = 0; at < raise_.size(); ++at) {
-        const double price = 2.0 * lambda_ * row_sums_[at] + raise_[at];
+    for (std::size_t entry = 0; entry < raise_.size(); ++entry) {
+        const double price = 2.0 * lambda_ * row_sums_[entry] + raise_[entry];
         squares += price * price;
     }
     if (squares == 0.0) return 0.0;

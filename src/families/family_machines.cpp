@@ -115,19 +115,19 @@ ImplicitShape make_pliers(SeededStream& random, int index) {
                   frame_at({0, 0, -half_height}),
                   {{0, 0}, {joint - 0.02, 0}, {joint - 0.02, 2 * half_height}, {0, 2 * half_height}}, 0.02));
     for (const double side : {1.0, -1.0}) {
-        const auto at = [&](double x, double y) { return Vector3d(x, side * y, 0); };
+        const auto jaw_point = [&](double x, double y) { return Vector3d(x, side * y, 0); };
         // The jaw's inner edge turns about the pivot by the opening; its middle line lies a radius further
         // out.
-        const Vector3d root = at(0.5 * joint, 0.9 * jaw_root);
-        const Vector3d tip = root + at(jaw_length * std::cos(opening),
-                                       jaw_length * std::sin(opening) - 0.5 * (jaw_root - jaw_tip));
+        const Vector3d root = jaw_point(0.5 * joint, 0.9 * jaw_root);
+        const Vector3d tip = root + jaw_point(jaw_length * std::cos(opening),
+                                              jaw_length * std::sin(opening) - 0.5 * (jaw_root - jaw_tip));
         shape.add(0, 0.03,
                   flat_chain({ball(root, jaw_root), ball(tip, jaw_tip)}, Vector3d::UnitZ(),
                              std::min(1.6, jaw_root / (0.8 * half_height))));
-        const Vector3d start = at(-0.55 * joint, 0.6 * joint);
-        const Vector3d end = at(-0.55 * joint - handle_length * std::cos(spread),
-                                0.6 * joint + handle_length * std::sin(spread));
-        const Vector3d middle = 0.5 * (start + end) + at(0.0, bow + 0.02);
+        const Vector3d start = jaw_point(-0.55 * joint, 0.6 * joint);
+        const Vector3d end = jaw_point(-0.55 * joint - handle_length * std::cos(spread),
+                                       0.6 * joint + handle_length * std::sin(spread));
+        const Vector3d middle = 0.5 * (start + end) + jaw_point(0.0, bow + 0.02);
         shape.add(2, 0.03,
                   round_chain(smooth_path({ball(start, 0.75 * handle_radius), ball(middle, handle_radius),
                                            ball(end, 0.9 * handle_radius)},
