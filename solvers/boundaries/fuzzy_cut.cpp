@@ -167,7 +167,8 @@ double mean_real_length(const DualGraph& graph) {
     return count > 0.0 ? sum / count : 0.0;
 }
 
-/// Distance of every face to the nearest boundary between labels, from centroid to centroid; `limit` where it is more.
+/// Distance of every face to the nearest boundary between labels, from centroid to centroid; `limit` where it
+/// is more.
 std::vector<double> surface_distance(const DualGraph& graph, const FaceGeometry& geometry,
                                      const std::vector<int>& label, double limit) {
     using Entry = std::pair<double, int>;
@@ -264,7 +265,8 @@ std::vector<double> holding_costs(const DualGraph& graph, const FaceGeometry& ge
     const double unit = mean_real_length(graph);
     std::vector<double> cost(label.size(), 0.0);
     if (!(unit > 0.0)) return cost;
-    // The cost of a strip from 0 to x is the integral of 2 t / reach^2 over it: its length times (x / reach)^2.
+    // The cost of a strip from 0 to x is the integral of 2 t / reach^2 over it: its length times
+    // (x / reach)^2.
     const std::vector<double> distance = surface_distance(graph, geometry, label, 2.0 * reach);
     for (std::size_t f = 0; f < cost.size(); ++f) {
         cost[f] = 2.0 * distance[f] * geometry.area[static_cast<Eigen::Index>(f)] / (reach * reach * unit);

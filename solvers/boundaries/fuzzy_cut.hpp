@@ -34,18 +34,19 @@ double boundary_capacity(const DualGraph& graph, const std::vector<double>& capa
 ///
 /// Deviates: the strip is a number of triangles and not the faces of uncertain probability; it ends half way
 /// through thin regions; all pairs of labels are cut one after the other. Capacities are times the edge's
-/// length: without it the cut counts triangles and runs through the coarse ones. Without holding costs a strip of 10
-/// triangles takes boundaries off their place wherever a shorter one is near (see docs/method.md, section 8).
+/// length: without it the cut counts triangles and runs through the coarse ones. Without holding costs a
+/// strip of 10 triangles takes boundaries off their place wherever a shorter one is near (see docs/method.md,
+/// section 8).
 ///
-/// `holding` (empty, or per face >= 0, in units of capacity): what it costs a face to leave the label it came with,
-/// see holding_costs. The sum of boundary_capacity and these costs never rises.
+/// `holding` (empty, or per face >= 0, in units of capacity): what it costs a face to leave the label it came
+/// with, see holding_costs. The sum of boundary_capacity and these costs never rises.
 std::vector<int> fuzzy_cut(const DualGraph& graph, const std::vector<int>& label,
                            const FuzzyCutOptions& options = {}, const std::vector<double>& holding = {});
 
-/// Costs that grow with the distance d of a face to the nearest boundary of its label, over the surface: to carry a
-/// boundary of length l over a distance x costs l (x / reach)^2, so that it goes no farther than `reach` even into
-/// the deepest crease and stays where no crease is near. Units: those of fuzzy_cut_capacities. reach > 0, in the
-/// mesh's unit.
+/// Costs that grow with the distance d of a face to the nearest boundary of its label, over the surface: to
+/// carry a boundary of length l over a distance x costs l (x / reach)^2, so that it goes no farther than
+/// `reach` even into the deepest crease and stays where no crease is near. Units: those of
+/// fuzzy_cut_capacities. reach > 0, in the mesh's unit.
 std::vector<double> holding_costs(const DualGraph& graph, const FaceGeometry& geometry,
                                   const std::vector<int>& label, double reach);
 

@@ -15,8 +15,8 @@ struct ShapeWordInput {
     const Eigen::MatrixXf* context = nullptr;  ///< d x F, column major, the same d for all meshes; finite
 };
 
-inline constexpr std::int64_t word_sample_faces =
-    30'000;                                    ///< faces, over the collection, that the words start from
+/// Faces, over the collection, that the words start from.
+inline constexpr std::int64_t word_sample_faces = 30'000;
 inline constexpr int word_sample_rounds = 30;  ///< at most, over that sample
 inline constexpr int word_rounds = 10;         ///< at most, over all faces
 
@@ -28,14 +28,14 @@ inline constexpr int word_rounds = 10;         ///< at most, over all faces
 /// seed, not on the number of ranks or on who holds which mesh. Source: Hu, Fan, Liu 2012 after Kalogerakis,
 /// Hertzmann, Singh 2010; rounds: Lloyd 1982 with the bounds of Hamerly 2010, which leave out searches but
 /// change no answer. Throws AgreedError(internal) if words < 1 or the d differ, AgreedError(input) if a
-/// context is not finite. canonical (may be null) receives the centres, d x words in the order of the numbers, for
-/// words_of. Collective.
+/// context is not finite. canonical (may be null) receives the centres, d x words in the order of the
+/// numbers, for words_of. Collective.
 std::vector<std::vector<int>> shape_words(const Comm& comm, const std::vector<ShapeWordInput>& local,
                                           int words, std::uint64_t seed,
                                           Eigen::MatrixXf* canonical = nullptr);
 
-/// The nearest of given words for every face of `context` (d x F). Throws Error(input) if a context is not finite,
-/// Error(internal) if the d differ. Serial.
+/// The nearest of given words for every face of `context` (d x F). Throws Error(input) if a context is not
+/// finite, Error(internal) if the d differ. Serial.
 std::vector<int> words_of(const Eigen::MatrixXf& context, const Eigen::MatrixXf& centres);
 
 }  // namespace coseg

@@ -278,8 +278,8 @@ void MeshScopeSolver::append_column(const Column& column, SolvedTile& tile) cons
     tile.offsets.push_back(static_cast<std::int64_t>(tile.rows.size()));
 }
 
-/// Room for as many pairs as there will be if the columns to come are like those before, so that the largest array of a
-/// large problem is not copied while it grows. Memory that is never written to is not taken.
+/// Room for as many pairs as there will be if the columns to come are like those before, so that the largest
+/// array of a large problem is not copied while it grows. Memory that is never written to is not taken.
 void make_room(const SolvedTile& tile, SparseCoefficients& sparse) {
     const std::size_t pairs = sparse.rows.size() + tile.rows.size();
     if (pairs <= sparse.rows.capacity()) return;
@@ -308,8 +308,8 @@ void add_tile(const SolvedTile& tile, SparseCoefficients& sparse, ExactSum& sums
     totals.rounds.push_back(tile.rounds);
 }
 
-/// Both ends of the gap where the columns together have decreased the objective so much, and no W does so by more than
-/// `largest_decrease`.
+/// Both ends of the gap where the columns together have decreased the objective so much, and no W does so by
+/// more than `largest_decrease`.
 HistoryRow certificate(const FeatureStack& stack, double decrease, double largest_decrease) {
     HistoryRow row;
     row.objective = stack.squared_norm - decrease;

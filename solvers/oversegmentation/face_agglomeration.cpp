@@ -17,8 +17,8 @@ struct Contact {
     double weight;
 };
 
-/// The lists of what each group touches, ascending by group, in one array: a list of its own in every group would cost
-/// more in allocations than all merges do.
+/// The lists of what each group touches, ascending by group, in one array: a list of its own in every group
+/// would cost more in allocations than all merges do.
 class ContactLists {
   public:
     explicit ContactLists(const WeightedGraph& graph);
@@ -114,10 +114,10 @@ struct Group {
 
 /// The groups while they grow; a group keeps the number of its lowest node.
 ///
-/// The queue holds one candidate a group. What two groups would change is other only after one of them has grown, and a
-/// group that has grown takes its best candidate anew; so the best pair of all is the candidate of whichever of its
-/// groups grew last, unless that group's best partner has grown since. Such a candidate surfaces before any worse one,
-/// and is then replaced.
+/// The queue holds one candidate a group. What two groups would change is other only after one of them has
+/// grown, and a group that has grown takes its best candidate anew; so the best pair of all is the candidate
+/// of whichever of its groups grew last, unless that group's best partner has grown since. Such a candidate
+/// surfaces before any worse one, and is then replaced.
 class Agglomeration {
   public:
     explicit Agglomeration(const WeightedGraph& graph);

@@ -9,11 +9,11 @@ namespace coseg {
 
 /// Where the order of nodes that was swept came from.
 enum class CutOrigin {
-    components,     ///< the graph was not connected: the component of node 0 against the rest, value 0
-    lanczos,        ///< Fiedler vector by Lanczos iterations on the inverse of the Laplacian
-    dense,          ///< Fiedler vector by a dense eigen-solve: small graphs, or Lanczos without convergence
-    breadth_first,  ///< distance from a far node: both eigen-solves failed (weights beyond what doubles can
-                    ///< factor)
+    components,  ///< the graph was not connected: the component of node 0 against the rest, value 0
+    lanczos,     ///< Fiedler vector by Lanczos iterations on the inverse of the Laplacian
+    dense,       ///< Fiedler vector by a dense eigen-solve: small graphs, or Lanczos without convergence
+    /// Distance from a far node: both eigen-solves failed (weights beyond what doubles can factor).
+    breadth_first,
 };
 
 struct TwoWayCut {

@@ -11,24 +11,24 @@ namespace coseg {
 
 struct OversegmentationOptions {
     int patches = 50;  ///< p, >= 1
-    double noise =
-        0.3;  ///< standard deviation of the logarithm of the edge weights' noise, >= 0; 0: no randomness
-    int super_faces =
-        1500;  ///< faces are agglomerated to this many before the cuts (never fewer than `patches`)
+    /// Standard deviation of the logarithm of the edge weights' noise, >= 0; 0: no randomness.
+    double noise = 0.3;
+    /// Faces are agglomerated to this many before the cuts (never fewer than `patches`).
+    int super_faces = 1500;
 };
 
 /// Patch 0..count-1 per face. Every patch is non-empty and connected in the dual graph (virtual edges count);
 /// count = min(patches, faces), patches numbered by their lowest face. With no more faces than patches each
-/// face is a patch. A dual graph in several components (none that src/mesh/dual_graph.hpp makes) gives at least
-/// one patch each.
+/// face is a patch. A dual graph in several components (none that src/mesh/dual_graph.hpp makes) gives at
+/// least one patch each.
 ///
 /// Edge weight = length * dihedral_cost * exp(noise * n), n standard normal, a function of `seed` and of the
 /// edge's two vertices (faces for a virtual edge) only. Faces are agglomerated to super-faces; then always
-/// the region whose best cut has the smallest cut / A_1 + cut / A_2 is cut in two (solvers/oversegmentation/fiedler_cut.hpp,
-/// masses = areas), each side falling apart into its connected pieces, until there are p regions; of surplus
-/// ones the smallest in area goes to the neighbour it shares the most edge weight with. Free of scale; the
-/// order of faces matters only where values tie. `geometry` and `graph` are of the same mesh. Throws
-/// Error(usage) for options out of range.
+/// the region whose best cut has the smallest cut / A_1 + cut / A_2 is cut in two
+/// (solvers/oversegmentation/fiedler_cut.hpp, masses = areas), each side falling apart into its connected
+/// pieces, until there are p regions; of surplus ones the smallest in area goes to the neighbour it shares
+/// the most edge weight with. Free of scale; the order of faces matters only where values tie. `geometry` and
+/// `graph` are of the same mesh. Throws Error(usage) for options out of range.
 ///
 /// Source: Hu, Fan, Liu 2012 (p = 50 patches a mesh by normalised cuts on the graph of faces).
 ///

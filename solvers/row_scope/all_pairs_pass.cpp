@@ -16,15 +16,16 @@ namespace coseg {
 
 namespace {
 
-/// Columns looked at together: as many as pay for reading the rows once more, and no more than that where the rows are in
-/// the cache and what a tile keeps is as large as they are. The answer does not depend on it.
+/// Columns looked at together: as many as pay for reading the rows once more, and no more than that where the
+/// rows are in the cache and what a tile keeps is as large as they are. The answer does not depend on it.
 int tile_columns(const FeatureStack& stack) {
     constexpr int few_rows = 4096;
     return (stack.size <= few_rows ? 2 : 4) * static_cast<int>(coefficient_tile);
 }
 static_assert(coefficient_tile % group_columns == 0);
 constexpr double single_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
-/// Pairs whose norm, with a rounding error on top, exceeds its limit by less than so many are looked at again in double.
+/// Pairs whose norm, with a rounding error on top, exceeds its limit by less than so many are looked at again
+/// in double.
 constexpr double doubtful = 5.0;
 
 int longest_feature(const FeatureStack& stack) {
@@ -178,8 +179,8 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
     }
 }
 
-/// Scores of the panel's rows against the tile's columns, and their squares, so that no violation is missed for
-/// rounding.
+/// Scores of the panel's rows against the tile's columns, and their squares, so that no violation is missed
+/// for rounding.
 void AllPairsPass::score(Tile& tile, int panel) const {
     std::fill(tile.squares.begin(), tile.squares.end(), 0.0F);
     const std::size_t first = static_cast<std::size_t>(panel) * panel_rows;

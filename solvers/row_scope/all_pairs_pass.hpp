@@ -23,8 +23,8 @@ struct PassFindings {
     std::int64_t entering_pairs = 0;         ///< all ranks
 };
 
-/// Matrix products in single precision (pair_score_kernel.hpp); pairs too close to their limit for that are looked at in
-/// double, so the bound holds under rounding. Nothing of size N^2 is stored.
+/// Matrix products in single precision (pair_score_kernel.hpp); pairs too close to their limit for that are
+/// looked at in double, so the bound holds under rounding. Nothing of size N^2 is stored.
 ///
 /// Of the violating pairs, the `kept` worst of each row and of each column enter.
 class AllPairsPass {

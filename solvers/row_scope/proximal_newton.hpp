@@ -1,6 +1,7 @@
 #pragma once
-// The proximal point method with semismooth Newton inside: what closes row scope's gap where lambda is small and W
-// reconstructs most of X, so that gradient steps need thousands of iterations and Newton's on a guessed support get stuck.
+// The proximal point method with semismooth Newton inside: what closes row scope's gap where lambda is small
+// and W reconstructs most of X, so that gradient steps need thousands of iterations and Newton's on a guessed
+// support get stuck.
 
 #include <vector>
 
@@ -29,14 +30,14 @@ struct ProximalPoint {
 ///   SIAM J. Optim. 2018, with the prox of this problem's rows.
 class ProximalNewton {
   public:
-    /// `fits` are the columns of this rank, `offset` the place of each column's values, `linear` their X^T X; all must
-    /// outlive this.
+    /// `fits` are the columns of this rank, `offset` the place of each column's values, `linear` their X^T X;
+    /// all must outlive this.
     ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                    const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
                    const std::vector<double>& linear, RowExchange& exchange);
 
-    /// Pairs by columns, H values together. `centre_product` = G centre. `prices`: of the owned rows, warm-start
-    /// their prox. The same bits on any number of ranks. Collective.
+    /// Pairs by columns, H values together. `centre_product` = G centre. `prices`: of the owned rows,
+    /// warm-start their prox. The same bits on any number of ranks. Collective.
     ProximalPoint minimise(const std::vector<double>& centre, const std::vector<double>& centre_product,
                            double reach, std::vector<double>& prices);
 

@@ -19,8 +19,8 @@ class RowExchange {
     RowExchange(const Comm& comm, std::int64_t size, int features, const std::vector<int>& rows);
 
     [[nodiscard]] BlockRange owned_rows() const noexcept { return owned_; }
-    /// The values of owned row r (counted from owned_rows().begin) in what to_rows gives, H a pair, ascending in their
-    /// columns.
+    /// The values of owned row r (counted from owned_rows().begin) in what to_rows gives, H a pair, ascending
+    /// in their columns.
     [[nodiscard]] std::span<double> row(std::vector<double>& by_row, std::int64_t r) const {
         const std::size_t begin = row_begin_[at(r)] * features_;
         const std::size_t end = row_begin_[at(r) + 1] * features_;

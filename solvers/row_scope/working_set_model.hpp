@@ -38,8 +38,8 @@ class WorkingSetModel {
     [[nodiscard]] double objective() const noexcept { return current_.objective; }
     TrialPoint propose(double step);
     void accept() { std::swap(current_, trial_); }
-    /// Replaces the current point by its proximal point of the given reach, if that is better. Returns how many Newton steps
-    /// it took; nothing where they did not lead there. Collective.
+    /// Replaces the current point by its proximal point of the given reach, if that is better. Returns how
+    /// many Newton steps it took; nothing where they did not lead there. Collective.
     std::optional<int> proximal_step(double reach);
 
     /// Of this working set's own optimum. Collective.

@@ -13,11 +13,12 @@ namespace coseg {
 namespace {
 
 constexpr int inner_check_interval = 5;
-/// Proximal points are taken from this iteration on a working set on, one after each check; what gradient steps solve
-/// quickly, as where lambda is large, does not get there.
+/// Proximal points are taken from this iteration on a working set on, one after each check; what gradient
+/// steps solve quickly, as where lambda is large, does not get there.
 constexpr int first_proximal_step = 15;
-/// Of the first proximal point on a working set, in units of the shortest gradient step. Where Newton's method finds one
-/// quickly the next reaches further, which brings it nearer to the optimum; where it does not, none will reach as far again.
+/// Of the first proximal point on a working set, in units of the shortest gradient step. Where Newton's
+/// method finds one quickly the next reaches further, which brings it nearer to the optimum; where it does
+/// not, none will reach as far again.
 constexpr double first_reach = 10.0;
 constexpr double largest_reach = 1e5;
 constexpr double reach_growth = 3.0;
@@ -137,8 +138,9 @@ void take_turn(WorkingSetModel& model, int iteration, ProximalTurns& turns) {
     }
 }
 
-/// Spectral projected gradient on the working set, with proximal points in between where it is slow, until its own gap is small enough, or a limit, or the checkpoint stops it.
-/// from: where an earlier run was in this very solve, if it was.
+/// Spectral projected gradient on the working set, with proximal points in between where it is slow, until
+/// its own gap is small enough, or a limit, or the checkpoint stops it. from: where an earlier run was in
+/// this very solve, if it was.
 void solve_inside(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                   WorkingSet& working, std::vector<double>& prices, StoppingRule& rule, Progress& progress,
                   SolveResult& result, SolverCheckpoint* checkpoint, const SolveIterate* from) {
@@ -185,7 +187,8 @@ void solve_inside(const Comm& comm, const SubspaceProblem& problem, const Featur
     progress.row_sums = model.row_sums();
 }
 
-/// Counts a pass, and makes what it has found a row of the history. Returns whether the gap is small enough. Collective.
+/// Counts a pass, and makes what it has found a row of the history. Returns whether the gap is small enough.
+/// Collective.
 bool record(const Comm& comm, StoppingRule& rule, const Progress& progress, const PassFindings& findings,
             const WorkingSet& working, SolveResult& result) {
     ++result.passes;
@@ -219,7 +222,8 @@ PassFindings resume(const FeatureStack& stack, const SolveIterate& known, Workin
     return findings;
 }
 
-/// Keeps the end of the solve, unless it is the clock's, and ends the run where the checkpoint has stopped it.
+/// Keeps the end of the solve, unless it is the clock's, and ends the run where the checkpoint has stopped
+/// it.
 void close_checkpoint(SolverCheckpoint& checkpoint, const WorkingSet& working,
                       const std::vector<double>& prices, const StoppingRule& rule, const Progress& progress,
                       const SolveResult& result, bool was_finished) {
@@ -238,7 +242,8 @@ void close_checkpoint(SolverCheckpoint& checkpoint, const WorkingSet& working,
     checkpoint.close(progress.stopped);
 }
 
-/// What the next solve on the working set is asked for, and the pairs that it is on; false if nothing closes the gap.
+/// What the next solve on the working set is asked for, and the pairs that it is on; false if nothing closes
+/// the gap.
 bool prepare_solve(const FeatureStack& stack, const PassFindings& findings, const SolveOptions& options,
                    int passes, StoppingRule& rule, WorkingSet& working, Progress& progress) {
     // Solve the working set to a part of the gap that is left; more only where nothing else closes it.

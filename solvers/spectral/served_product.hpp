@@ -9,20 +9,22 @@
 
 namespace coseg {
 
-/// What is subtracted from a product: weight Q Q^T x, where the one nonzero of row i of Q is indicator[i], in column
-/// group[i]. Q Q^T is not formed: it would have an entry for every two patches of a mesh, more than the affinity itself.
+/// What is subtracted from a product: weight Q Q^T x, where the one nonzero of row i of Q is indicator[i], in
+/// column group[i]. Q Q^T is not formed: it would have an entry for every two patches of a mesh, more than
+/// the affinity itself.
 struct GroupBalance {
     double weight = 0.0;  ///< 0: nothing is subtracted
     std::vector<int> group;
     std::vector<double> indicator;
 };
 
-/// The root multiplies; the other ranks serve their rows until they are released. A row's product is summed in the order
-/// of its columns by the rank that holds it, and everything else is the root's, so that results have the same bits on any
-/// number of ranks. A product takes a broadcast and a gathering of N doubles.
+/// The root multiplies; the other ranks serve their rows until they are released. A row's product is summed
+/// in the order of its columns by the rank that holds it, and everything else is the root's, so that results
+/// have the same bits on any number of ranks. A product takes a broadcast and a gathering of N doubles.
 class ServedProduct {
   public:
-    /// `matrix` must outlive this, rows owned as SparseRows says; the root alone looks at `balance`. Collective.
+    /// `matrix` must outlive this, rows owned as SparseRows says; the root alone looks at `balance`.
+    /// Collective.
     ServedProduct(const Comm& comm, const SparseRows& matrix, GroupBalance balance = {});
 
     /// y = A x less the balance, N doubles each. On the root, while the others serve.

@@ -247,7 +247,8 @@ void refuse_unconverged(EPS solver, int wanted, const Progress& progress) {
                     "; give the solver a larger basis (-- -eps_ncv 200)");
 }
 
-/// On the root alone, while the other ranks serve products: the `wanted` largest eigenpairs orthogonal to `known`.
+/// On the root alone, while the other ranks serve products: the `wanted` largest eigenpairs orthogonal to
+/// `known`.
 EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const EigenPairs& known, int wanted,
                            std::uint64_t trial, const SpectralOptions& options) {
     const PetscMatrix matrix = shell_matrix(product);

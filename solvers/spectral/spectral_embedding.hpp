@@ -10,8 +10,8 @@
 namespace coseg {
 
 struct SpectralOptions {
-    double offset =
-        0.0;  ///< 0.5 as in the paper's code: S + offset I, degrees + 2 offset; the scale of S then matters
+    /// 0.5 as in the paper's code: S + offset I, degrees + 2 offset; the scale of S then matters.
+    double offset = 0.0;
     double tolerance = 1e-10;   ///< residual norm of an eigenpair (the operator has norm 1)
     int max_restarts = 2000;    ///< of the Krylov-Schur method
     double mesh_balance = 0.0;  ///< tau in [0, 1]; not with an offset
@@ -28,23 +28,24 @@ struct SpectralEmbedding {
 /// At most so many patches are solved densely, on every rank alike.
 inline constexpr int dense_rows = 128;
 
-/// The `count` largest eigenvectors of D^-1/2 S D^-1/2 back-multiplied by D^-1/2, for a cut into `parts` <=
-/// count; fewer where fewer rows take part. `affinity` is symmetric with entries >= 0.
+/// The `count` largest eigenvectors of D^-1/2 S D^-1/2 back-multiplied by D^-1/2, for a cut into
+/// `parts` <= count; fewer where fewer rows take part. `affinity` is symmetric with entries >= 0.
 ///
 /// Eigenvectors of eigenvalue 1 are known, one per component, and are deflated instead of computed. The
 /// others come from SLEPc's Krylov-Schur method with a seeded start; then solves on the complement of what
 /// was found look for further copies of multiple eigenvalues, which a single Krylov space does not see.
 ///
-/// mesh_balance tau makes it dear to cut whole meshes apart: from the operator tau Q Q^T is subtracted, Q the meshes'
-/// indicators D^1/2 1_m of unit length, on the complement of the eigenvectors of eigenvalue 1. A vector that is
-/// constant on each mesh thus loses tau, one whose mean over each mesh is 0 loses nothing. `mesh_of`: mesh 0 .. M-1
-/// of each patch; it may be empty where tau is 0.
+/// mesh_balance tau makes it dear to cut whole meshes apart: from the operator tau Q Q^T is subtracted, Q the
+/// meshes' indicators D^1/2 1_m of unit length, on the complement of the eigenvectors of eigenvalue 1. A
+/// vector that is constant on each mesh thus loses tau, one whose mean over each mesh is 0 loses nothing.
+/// `mesh_of`: mesh 0 .. M-1 of each patch; it may be empty where tau is 0.
 ///
-/// The ranks of `comm` share the products with the affinity, of which each holds its rows; the Krylov method itself runs
-/// on the root. The result is a function of the affinity alone, the same bytes on any number of ranks.
-/// Collective. Throws on all ranks: AgreedError(not_converged) with the residual reached, AgreedError(input)
-/// where no two patches have an affinity or fewer than `parts` patches take part. Source: Shi and Malik 2000;
-/// the code of Cour, Yu and Shi, which the paper used. Deviates: rows set aside, mesh_balance.
+/// The ranks of `comm` share the products with the affinity, of which each holds its rows; the Krylov method
+/// itself runs on the root. The result is a function of the affinity alone, the same bytes on any number of
+/// ranks. Collective. Throws on all ranks: AgreedError(not_converged) with the residual reached,
+/// AgreedError(input) where no two patches have an affinity or fewer than `parts` patches take part. Source:
+/// Shi and Malik 2000; the code of Cour, Yu and Shi, which the paper used. Deviates: rows set aside,
+/// mesh_balance.
 SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinity, int parts, int count,
                                      const SpectralOptions& options, const std::vector<int>& mesh_of = {});
 

@@ -30,8 +30,8 @@ class PaperDualBound {
     PaperDualBound(const FeatureStack& stack, double alpha, double beta, double lambda,
                    const std::vector<double>& row_sums);
 
-    /// The columns first .. first + width, a run of whole coefficient tiles, with their z: D x width values, which
-    /// must live until end_tile.
+    /// The columns first .. first + width, a run of whole coefficient tiles, with their z: D x width values,
+    /// which must live until end_tile.
     void begin_tile(int first, int width, const double* reconstruction);
 
     /// The pair of row i and the tile's column c (counted from its first), i != first + c: `scores` are

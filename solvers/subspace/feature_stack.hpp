@@ -1,5 +1,6 @@
 #pragma once
-// The H features of every patch stacked into one column each, as the solvers read them, with their norms and sums.
+// The H features of every patch stacked into one column each, as the solvers read them, with their norms and
+// sums.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -38,10 +39,12 @@ struct FeatureStack {
 /// The problem's features as they lie in memory.
 FeatureStack stack_features(const SubspaceProblem& problem);
 
-/// Column `order[i]` of the problem becomes column i; a copy of the features unless that changes nothing. Collective.
+/// Column `order[i]` of the problem becomes column i; a copy of the features unless that changes nothing.
+/// Collective.
 FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order);
 
-/// The columns in single precision, in the panels of pair_score_kernel.hpp, the last filled up with zeros; once a node.
+/// The columns in single precision, in the panels of pair_score_kernel.hpp, the last filled up with zeros;
+/// once a node.
 class PanelColumns {
   public:
     /// Collective over `comm`, whose ranks all have this stack.

@@ -13,8 +13,8 @@ struct FeatureStrength {
     /// parts x H: the share of each feature in the coefficients inside a part; sums to 1, or all 0.
     std::vector<std::vector<double>> of_part;
     std::vector<double> overall;  ///< H: the same over all pairs
-    /// parts x parts: share of all coefficients (norm of a pair) whose row lies in the first part and whose column
-    /// in the second; sums to 1, or all 0.
+    /// parts x parts: share of all coefficients (norm of a pair) whose row lies in the first part and whose
+    /// column in the second; sums to 1, or all 0.
     std::vector<std::vector<double>> blocks;
     std::vector<double> inside;  ///< parts: share of the coefficients of a part's columns that stay inside it
     std::vector<std::int64_t> pairs_by_features;  ///< H + 1: pairs with so many nonzero features; [0] is 0

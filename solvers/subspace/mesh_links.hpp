@@ -15,10 +15,11 @@ inline constexpr int default_links = 64;
 /// For each mesh, ascending, the meshes it is linked to: SubspaceProblem::allowed_meshes. Empty, which stands
 /// for all others, where `links` is at least one less than the number of meshes.
 ///
-/// The links are those of random cycles through all meshes: symmetric, connected by the first cycle alone, and
-/// a union of a few such cycles is an expander with high probability, so that the cut's graph has no cheap cut
-/// between groups of meshes. Each mesh gets `links` of them; a few may get one or two less. The order of a
-/// cycle is a hash of the seed and the meshes' names. `links` >= 2; `names` are unique. Does not communicate.
+/// The links are those of random cycles through all meshes: symmetric, connected by the first cycle alone,
+/// and a union of a few such cycles is an expander with high probability, so that the cut's graph has no
+/// cheap cut between groups of meshes. Each mesh gets `links` of them; a few may get one or two less. The
+/// order of a cycle is a hash of the seed and the meshes' names. `links` >= 2; `names` are unique. Does not
+/// communicate.
 ///
 /// Source: the union of random Hamiltonian cycles and its expansion: Friedman 2008; Kim and Wormald 2001.
 std::vector<std::vector<int>> mesh_links(const std::vector<std::string>& names, int links,

@@ -9,7 +9,8 @@
 
 namespace coseg {
 
-/// The state of the whole problem after a pass over all pairs; the same on all ranks and on any number of them.
+/// The state of the whole problem after a pass over all pairs; the same on all ranks and on any number of
+/// them.
 struct HistoryRow {
     int pass = 0;        ///< from 1
     int iterations = 0;  ///< so far; where columns are independent: of the column that took most
@@ -25,11 +26,12 @@ using SolveHistory = std::vector<HistoryRow>;
 
 inline constexpr std::size_t most_history_rows = 256;
 
-/// Appends a row; a full history drops every second one first, so that the early rows thin out and the last ones stay.
+/// Appends a row; a full history drops every second one first, so that the early rows thin out and the last
+/// ones stay.
 void append_row(SolveHistory& history, const HistoryRow& row);
 
-/// Rows of several problems side by side: objectives, bounds and pairs added up, iterations and gap the largest. A
-/// problem that has ended stays at its last row.
+/// Rows of several problems side by side: objectives, bounds and pairs added up, iterations and gap the
+/// largest. A problem that has ended stays at its last row.
 SolveHistory joined(const std::vector<SolveHistory>& histories);
 
 /// Where a column, or a set of them, stands when it has been looked at once more.
@@ -45,8 +47,8 @@ struct ColumnRound {
 /// Appends a round; from most_history_rows on the last one is replaced.
 void append_round(std::vector<ColumnRound>& rounds, const ColumnRound& round);
 
-/// Round k of all `columns` together: sums, the largest number of iterations. A column that has ended stays at its last
-/// round; one without any counts nothing.
+/// Round k of all `columns` together: sums, the largest number of iterations. A column that has ended stays
+/// at its last round; one without any counts nothing.
 std::vector<ColumnRound> joined_rounds(const std::vector<std::vector<ColumnRound>>& columns);
 
 /// The same over the tiles of all ranks, with the same bits on any number of ranks. Collective.

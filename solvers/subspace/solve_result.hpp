@@ -1,6 +1,6 @@
 #pragma once
-// What a solver of the subspace problem is asked to do, and what it returns: the coefficients with the certificate of how
-// close they are to the optimum.
+// What a solver of the subspace problem is asked to do, and what it returns: the coefficients with the
+// certificate of how close they are to the optimum.
 
 #include <functional>
 #include <string>
@@ -46,8 +46,8 @@ struct SolveResult {
     std::int64_t working_pairs = 0;   ///< pairs that the last working set held, all ranks
     std::int64_t nonzero_groups = 0;  ///< pairs with a value > 0, all ranks
     StopReason reason = StopReason::gap_reached;
-    /// A row a pass over all pairs (dense: a certificate), the last one as above. Mesh scope, ssc: row k is after every
-    /// column's k-th pass. Complete also where a checkpoint resumes the solve.
+    /// A row a pass over all pairs (dense: a certificate), the last one as above. Mesh scope, ssc: row k is
+    /// after every column's k-th pass. Complete also where a checkpoint resumes the solve.
     SolveHistory history;
     PassCost pass_cost;  ///< row scope by working sets, and mesh scope; not the same on all ranks
 };

@@ -14,8 +14,8 @@ namespace coseg {
 
 struct SolveOptions;
 
-/// The outcome of the columns [begin, end), a whole tile of the optimiser: a function of the problem and the options, not
-/// of the rank that solved it.
+/// The outcome of the columns [begin, end), a whole tile of the optimiser: a function of the problem and the
+/// options, not of the rank that solved it.
 struct SolvedTile {
     std::int64_t begin = 0;
     std::int64_t end = 0;
@@ -40,8 +40,8 @@ struct ProximalTurns {
     double sufficient_gap = 0.0;  ///< of the working set's problem, once proximal points are needed
 };
 
-/// Where row scope stands: in the middle of a solve on its working set, or at its end. A function of the problem and
-/// the options; each rank holds its own columns.
+/// Where row scope stands: in the middle of a solve on its working set, or at its end. A function of the
+/// problem and the options; each rank holds its own columns.
 struct SolveIterate {
     BlockRange columns;
     std::vector<std::int64_t> offsets;  ///< columns.size() + 1, into rows
@@ -66,8 +66,9 @@ struct SolveIterate {
 /// What is to be done with an iterate now.
 enum class CheckpointAction { go_on, keep, keep_and_stop };
 
-/// Where finished tiles go, or the iterate of a solver whose columns are not independent. A solver calls open() once, then
-/// for tiles the members in between for the columns that a rank owns, in ascending order, or those for iterates, then close().
+/// Where finished tiles go, or the iterate of a solver whose columns are not independent. A solver calls
+/// open() once, then for tiles the members in between for the columns that a rank owns, in ascending order,
+/// or those for iterates, then close().
 class SolverCheckpoint {
   public:
     SolverCheckpoint() = default;
@@ -75,7 +76,8 @@ class SolverCheckpoint {
     SolverCheckpoint(const SolverCheckpoint&) = delete;
     SolverCheckpoint& operator=(const SolverCheckpoint&) = delete;
 
-    /// Collective: the problem that the tiles belong to, and the columns that this rank will ask for. Throws AgreedError.
+    /// Collective: the problem that the tiles belong to, and the columns that this rank will ask for. Throws
+    /// AgreedError.
     virtual void open(const SubspaceProblem& problem, const SolveOptions& options, BlockRange owned) = 0;
     /// The tile that begins at this column, if it was finished before.
     virtual std::optional<SolvedTile> find(std::int64_t begin) = 0;
@@ -90,8 +92,8 @@ class SolverCheckpoint {
     /// In place of the one before. Collective; throws AgreedError(output).
     virtual void keep_iterate(const SolveIterate& iterate) = 0;
 
-    /// Collective, after the last tile of every rank or the last iterate. Throws AgreedError if the solver ended early on any rank
-    /// (`stopped`) or a tile could not be kept; returns if the solution is complete.
+    /// Collective, after the last tile of every rank or the last iterate. Throws AgreedError if the solver
+    /// ended early on any rank (`stopped`) or a tile could not be kept; returns if the solution is complete.
     virtual void close(bool stopped) = 0;
 };
 

@@ -10,9 +10,9 @@
 
 namespace coseg {
 
-/// Calls add(i, sums) for each of `items` rows or columns, the first of which begins a coefficient tile. What it adds to
-/// sums[0] .. sums[count - 1] is added up tile by tile, in order, and each tile is one addend of the scalars `first`,
-/// first + 1, ...: ranks own whole tiles.
+/// Calls add(i, sums) for each of `items` rows or columns, the first of which begins a coefficient tile. What
+/// it adds to sums[0] .. sums[count - 1] is added up tile by tile, in order, and each tile is one addend of
+/// the scalars `first`, first + 1, ...: ranks own whole tiles.
 template <std::size_t count, class Add>
 void add_by_tiles(std::int64_t items, std::size_t first, ExactSum& sums, Add&& add) {
     double tile[count] = {};

@@ -31,8 +31,8 @@ struct Trunk {
 
 void add_walking_legs(ImplicitShape& shape, SeededStream& random, const Trunk& trunk, double length) {
     const double radius = random.uniform(0.042, 0.062);
-    const double stride =
-        random.uniform(0.05, 0.45) * std::min(1.0, 1.2 * trunk.half_length / length);  // legs stay clear
+    // Legs stay clear.
+    const double stride = random.uniform(0.05, 0.45) * std::min(1.0, 1.2 * trunk.half_length / length);
     const double phase = random.uniform(0.0, 2.0 * std::numbers::pi);
     for (int i = 0; i < 4; ++i) {
         const bool front = i < 2;

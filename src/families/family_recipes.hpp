@@ -1,7 +1,6 @@
 #pragma once
-// How a shape of each family is put together. Used by shape_families.cpp alone.
-//
-// Each recipe draws proportions, pose and parts from `random`; `index` decides what must not be left to
+// Says how a shape of each family is put together. Only shape_families.cpp uses it.
+// || Each recipe draws proportions, pose and parts from `random`. `index` decides what must not be left to
 // chance, such as whether there is a handle, so that a small collection has both. Labels are indices into the
 // family's list.
 
@@ -32,8 +31,8 @@ inline Eigen::Isometry3d frame_at(const Eigen::Vector3d& origin) {
     return frame_along(origin, Eigen::Vector3d::UnitZ());
 }
 
-/// A Catmull-Rom curve through the spheres, `pieces` pieces between neighbours; radii are interpolated
-/// likewise.
+/// A Catmull-Rom curve through the spheres, with `pieces` pieces between neighbours. Radii are interpolated
+/// in the same way.
 std::vector<ChainSphere> smooth_path(const std::vector<ChainSphere>& through, int pieces);
 
 inline ChainSphere ball(const Eigen::Vector3d& centre, double radius) {
@@ -48,7 +47,7 @@ inline Eigen::Vector3d mirrored(const Eigen::Vector3d& p) { return {p[0], -p[1],
 std::vector<Eigen::Vector2d> rectangle(double half_x, double half_y);
 std::vector<Eigen::Vector2d> ellipse(double half_x, double half_y, int corners);
 
-/// cos and sin.
+/// The unit vector (cos angle, sin angle).
 Eigen::Vector2d direction(double angle);
 
 }  // namespace coseg

@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 
 void ImplicitShape::add(int label, double blend, PrimitivePointer primitive) {
     const Eigen::AlignedBox3d box = primitive->bounds();
-    const Vector3d margin =
-        Vector3d::Constant(0.25 * blend);  // how far the smooth minimum moves the surface out
+    // How far the smooth minimum moves the surface out.
+    const Vector3d margin = Vector3d::Constant(0.25 * blend);
     bounds_.extend(Eigen::AlignedBox3d(box.min() - margin, box.max() + margin));
     thickness_ = std::min(thickness_, primitive->thickness());
     if (blend > 0.0) smallest_blend_ = std::min(smallest_blend_, blend);

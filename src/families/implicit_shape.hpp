@@ -10,20 +10,20 @@ namespace coseg {
 
 class ImplicitShape {
   public:
-    /// Joins a primitive to what is there, the seam filled within about `blend` of the crease (0: a sharp
-    /// crease). Keep `blend` well under the part's thickness, so that the crease stays visibly concave.
+    /// Joins a primitive to what is there. The seam is filled within about `blend` of the crease; 0 gives a
+    /// sharp crease. Keep `blend` well under the part's thickness, so that the crease stays visibly concave.
     void add(int label, double blend, PrimitivePointer primitive);
 
-    /// Negative inside; its gradient is at most 1 outside, up to the primitives' own accuracy.
-    /// Source: I. Quilez' quadratic polynomial smooth minimum, one primitive after the other in the order of
-    /// add.
+    /// Negative inside. Its gradient is at most 1 outside, up to the accuracy of the primitives. Source: the
+    /// quadratic polynomial smooth minimum of I. Quilez, applied to one primitive after the other in the
+    /// order of add.
     [[nodiscard]] double distance(const Eigen::Vector3d& point) const;
 
-    /// The label of the primitive that is nearest to `point` when nothing is blended; the earlier one of a
-    /// tie.
+    /// The label of the primitive that is nearest to `point` when nothing is blended. Of two at the same
+    /// distance it is the earlier one.
     [[nodiscard]] int nearest_label(const Eigen::Vector3d& point) const;
 
-    /// A point of the surface near `point`, by a few Newton steps along the gradient.
+    /// A point of the surface near `point`, found by a few Newton steps along the gradient.
     [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point) const;
 
     [[nodiscard]] Eigen::AlignedBox3d bounds() const { return bounds_; }     ///< holds the whole surface

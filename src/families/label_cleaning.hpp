@@ -7,13 +7,14 @@
 
 namespace coseg {
 
-/// Pieces (connected faces of one label, virtual edges left out) of fewer than `minimum_faces` faces take the
-/// label with which they share the longest boundary, the smallest piece first. A piece without neighbours
-/// stays. labels: F entries, changed in place.
+/// Every piece of fewer than `minimum_faces` faces takes the label with which it shares the longest boundary,
+/// the smallest piece first. A piece is a connected set of faces of one label, where virtual edges do not
+/// count. A piece without neighbours stays. labels: F entries, changed in place.
 void merge_label_islands(const DualGraph& graph, int minimum_faces, std::vector<int>& labels);
 
-/// A face two of whose neighbours share another label takes that label, until there is none: boundaries lose
-/// the teeth that cutting at whole triangles leaves. Faces in ascending order, so the result is one.
+/// A face two of whose neighbours share another label takes that label, until there is no such face.
+/// Boundaries thus lose the teeth that cutting at whole triangles leaves. Faces are visited in ascending
+/// order, so that the result is unique.
 void remove_label_teeth(const DualGraph& graph, std::vector<int>& labels);
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// Families of shapes with truth labels, made in code: collections on which co-segmentation can be tried and
+// Makes families of shapes with true labels in code. On such collections co-segmentation can be tried and
 // tested.
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace coseg {
 
-/// A closed, connected manifold mesh, about one unit in size, z up; a label per face.
+/// A closed, connected manifold mesh of about one unit in size, with z up, and a label per face.
 struct LabeledShape {
     TriMesh mesh;
     std::vector<int> face_label;           ///< F, an index into label_names
@@ -32,10 +32,10 @@ const ShapeFamily& nearest_family(const std::string& name);
 /// The family of that name. Throws Error(usage) with the list of families and the nearest name.
 const ShapeFamily& shape_family(const std::string& name);
 
-/// Shape `index` of the endless collection that `seed` gives; its faces number within 15 % of `target_faces`,
-/// even triangles all. A function of the arguments alone. Part boundaries lie in the creases between the
-/// solids that make up the shape. Throws Error(usage) for an unknown family or target_faces outside
-/// 500..200000.
+/// Shape `index` of the endless collection that `seed` gives. The number of its faces is within 15 % of
+/// `target_faces`, and its triangles are even. It is a function of the arguments alone. Boundaries of parts
+/// lie in the creases between the solids that make up the shape. Throws Error(usage) for an unknown family or
+/// target_faces outside 500 .. 200000.
 LabeledShape generate_shape(const std::string& family, std::uint64_t seed, int index, int target_faces);
 
 }  // namespace coseg

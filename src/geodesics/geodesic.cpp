@@ -80,8 +80,8 @@ void require_all_reached(const TriMesh& mesh, const std::vector<float>& distance
     }
 }
 
-/// The face whose corners are farthest from all samples, again and again while these distances sink. Of a run of faces
-/// the largest sum seen last is a bound: most runs need not be looked at.
+/// The face whose corners are farthest from all samples, again and again while these distances sink. Of a run
+/// of faces the largest sum seen last is a bound: most runs need not be looked at.
 class RemoteFaces {
   public:
     RemoteFaces(const TriMesh& mesh, std::uint64_t seed)
@@ -166,8 +166,8 @@ Batch take_batch(const TriMesh& mesh, const FaceGeometry& geometry, const Surfac
     return batch;
 }
 
-/// Batches whose distances are written to the table together: a face's rows of one batch are one cache line, and lines
-/// that lie far apart are slow to write one by one.
+/// Batches whose distances are written to the table together: a face's rows of one batch are one cache line,
+/// and lines that lie far apart are slow to write one by one.
 constexpr std::size_t batches_at_once = 4;
 
 /// The distances of all vertices from one batch of samples.
@@ -222,8 +222,8 @@ void fill_table(const TriMesh& mesh, const FaceGeometry& geometry, const Surface
     }
 }
 
-/// The first of the smallest. The bits of nonnegative floats are ordered as the floats are, and of integers compilers
-/// find the smallest with vectors.
+/// The first of the smallest. The bits of nonnegative floats are ordered as the floats are, and of integers
+/// compilers find the smallest with vectors.
 COSEG_VECTOR_CLONES Eigen::Index smallest_of(const float* distance, int count) {
     int least = std::numeric_limits<int>::max();
     for (int k = 0; k < count; ++k) least = std::min(least, std::bit_cast<int>(distance[k]));

@@ -1,6 +1,6 @@
 #pragma once
-// Geodesic distances from a few hundred sample faces to every face: the one table that average geodesic
-// distance and shape context are made from.
+// Computes geodesic distances from a few hundred sample faces to every face. Average geodesic distance and
+// shape context are both made from this one table.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -20,17 +20,17 @@ struct GeodesicTable {
 
 /// Distances from `samples` farthest-point samples (fewer if the mesh has fewer faces) to every face of a
 /// mesh.
-/// - The first sample is the face whose centroid is farthest from the area-weighted centroid; each next one
-/// the face
-///   farthest from those before; `seed` decides only between faces equally far. Samples are stored grouped by
-///   neighbourhood, not in the order found.
-/// - A sample starts at its face's centroid; the distance of another face is the mean of its three vertices'
-///   distances (the distance at its centroid where distances are locally linear), its own is 0.
-/// - Distances are shortest paths in surface_graph, in single precision.
-/// Sources: sample points and their Voronoi areas as in Kalogerakis, Hertzmann, Singh 2010, whose sums run
-/// over all faces; farthest points: Gonzalez 1985; shortcuts: as in surface_graph.hpp. graph must be
-/// connected by its edges, virtual ones included (dual_graph's is); throws Error(internal) if not. Throws
-/// Error(internal) if samples < 1 or the mesh has no face.
+/// - The first sample is the face whose centroid is farthest from the area-weighted centroid. Each next one
+///   is the face farthest from those before it; `seed` decides only between faces at the same distance.
+///   Samples are stored grouped by neighbourhood, not in the order in which they were found.
+/// - A sample starts at the centroid of its face. The distance of another face is the mean of the distances
+///   of its three vertices, which is the distance at its centroid where distances are locally linear. The
+///   distance of a sample to its own face is 0.
+/// - Distances are lengths of shortest paths in surface_graph, in single precision.
+/// The edges of graph, virtual ones included, must connect it, as those of dual_graph do. Throws
+/// Error(internal) if they do not, if samples < 1, or if the mesh has no face.
+/// Sources: sample points and their Voronoi areas: Kalogerakis, Hertzmann, Singh 2010, whose sums run over
+/// all faces; farthest points: Gonzalez 1985; shortcuts: as in surface_graph.hpp.
 GeodesicTable geodesic_table(const TriMesh& mesh, const FaceGeometry& geometry, const DualGraph& graph,
                              int samples, std::uint64_t seed);
 

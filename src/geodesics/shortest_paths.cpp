@@ -21,9 +21,9 @@ std::span<const SurfaceArc> arcs_of(const SurfaceGraph& graph, int node) {
     return {graph.arcs.data() + begin, static_cast<std::size_t>(end - begin)};
 }
 
-/// A radix heap (Ahuja, Mehlhorn, Orlin, Tarjan 1990), nearest first: what is pushed is never nearer than what was popped
-/// last. The bits of nonnegative floats are ordered as the floats are; a bucket holds what differs from the last one
-/// popped first in the same bit.
+/// A radix heap (Ahuja, Mehlhorn, Orlin, Tarjan 1990), nearest first: what is pushed is never nearer than
+/// what was popped last. The bits of nonnegative floats are ordered as the floats are; a bucket holds what
+/// differs from the last one popped first in the same bit.
 class NodeQueue {
   public:
     void push(float distance, int node) { put({std::bit_cast<std::uint32_t>(distance), node}); }
@@ -59,8 +59,8 @@ class NodeQueue {
     std::uint32_t last_ = 0;
 };
 
-/// Offers every node's distances that have come down to its neighbours, in all lanes at once. `is_pending` marks nodes
-/// whose neighbours have not been told. Returns by how many the marks became more.
+/// Offers every node's distances that have come down to its neighbours, in all lanes at once. `is_pending`
+/// marks nodes whose neighbours have not been told. Returns by how many the marks became more.
 COSEG_VECTOR_CLONES int sweep(const SurfaceGraph& graph, std::span<const int> order, PathLanes* distances,
                               unsigned char* is_pending) {
     int more = 0;

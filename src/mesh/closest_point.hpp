@@ -1,5 +1,5 @@
 #pragma once
-// The nearest point of a triangle mesh, by a tree of boxes.
+// Finds the nearest point of a triangle mesh by a tree of boxes.
 
 #include <Eigen/Core>
 #include <vector>
@@ -14,23 +14,26 @@ struct ClosestPoint {
     double distance = 0.0;
 };
 
-/// Built once, asked often. Holds a copy of the mesh; faces may be degenerate (segments, points).
+/// The tree is built once and then searched often. It holds a copy of the mesh. Faces may be degenerate, that
+/// is, segments or points.
 class ClosestPointTree {
   public:
     /// Throws Error(input) for a mesh without faces.
     explicit ClosestPointTree(const TriMesh& mesh);
 
-    /// The nearest point over all faces; the lowest face where several hold it.
+    /// The nearest point over all faces. Where several faces hold it, the one with the lowest number is
+    /// given.
     [[nodiscard]] ClosestPoint nearest(const Eigen::Vector3d& point) const;
 
-    /// The same over the faces whose normal n has n . normal > 0, so that a thin wall's other side is left
-    /// alone; over all faces where there is none.
+    /// The same over the faces whose normal n satisfies n . normal > 0, so that the other side of a thin wall
+    /// is left out. If there is no such face, all faces are searched.
     [[nodiscard]] ClosestPoint nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 
   private:
     struct Node {
         Eigen::Vector3d low, high;
-        int first = 0;  ///< of order_ for a leaf, else the left child; the right child follows it
+        /// A leaf: its first entry of order_. An inner node: its left child; the right child follows it.
+        int first = 0;
         int count = 0;  ///< faces of a leaf; 0 for an inner node
     };
     void build(int node, int begin, int end);
@@ -43,8 +46,8 @@ class ClosestPointTree {
     std::vector<Node> nodes_;
 };
 
-/// For every face of `of` the face of `on` that is nearest to its centroid and faces the same way: how labels
-/// travel between two meshes of one surface.
+/// For every face of `of`: the face of `on` that is nearest to its centroid and faces the same way. By this,
+/// labels travel between two meshes of one surface.
 std::vector<int> nearest_faces(const TriMesh& of, const TriMesh& on);
 
 }  // namespace coseg

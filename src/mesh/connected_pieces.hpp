@@ -1,5 +1,5 @@
 #pragma once
-// The connected regions of equal label.
+// Finds the connected regions of equal label.
 
 #include <vector>
 
@@ -9,8 +9,8 @@ namespace coseg {
 
 enum class VirtualEdges { connect, ignored };
 
-/// Piece number per face, 0.. by lowest face: two faces are in the same piece if a path of dual edges joins
-/// them through faces of their own label.
+/// The number of the piece of each face. Two faces are in the same piece if a path of dual edges joins them
+/// through faces of their own label. Pieces are numbered from 0 in the order of their lowest face.
 std::vector<int> connected_pieces(const DualGraph& graph, const std::vector<int>& label_of_face,
                                   VirtualEdges virtual_edges = VirtualEdges::connect);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The graph of faces: one node a face, one edge for every mesh edge between two faces, and virtual edges
-// that join separate components.
+// The graph of faces: each face is a node, each mesh edge between two faces is an edge, and virtual edges
+// join components that share no mesh edge.
 
 #include <vector>
 
@@ -15,9 +15,10 @@ struct DualEdge {
     int face_b = -1;
     int vertex_a = -1;  ///< the mesh edge's end points; -1 for a virtual edge
     int vertex_b = -1;
-    double length = 0.0;  ///< of the mesh edge; for a virtual edge: a fictitious short boundary
-    double dihedral =
-        0.0;  ///< radians in (0, 2 pi), measured OUTSIDE the solid: < pi concave, pi flat, > pi convex
+    double length = 0.0;  ///< the mesh edge's; a virtual edge has a fictitious short one
+    /// Radians in (0, 2 pi), measured OUTSIDE the solid: less than pi is concave, pi flat, more than pi
+    /// convex.
+    double dihedral = 0.0;
     bool is_virtual = false;  ///< joins two components that share no mesh edge
 };
 
@@ -34,17 +35,18 @@ struct DualGraph {
     }
 };
 
-/// The dual graph of a mesh, connected. Boundary edges have no entry. geometry = face_geometry(mesh).
-/// Components that share no edge are joined by virtual edges: a minimum spanning tree over the components,
-/// two of which are as far apart as their nearest face centroids. A virtual edge is flat (dihedral pi) and
-/// 0.1 sqrt(mean face area) long, whatever the gap: short, because parts that touch nowhere should be cheap
-/// to cut apart.
+/// The dual graph of a mesh; it is always connected. Boundary edges of the mesh have no entry. geometry is
+/// face_geometry(mesh). Components that share no edge are joined by virtual edges along a minimum spanning
+/// tree, in which the distance of two components is that of their nearest face centroids. A virtual edge is
+/// flat (dihedral pi) and 0.1 sqrt(mean face area) long, however wide the gap is. It is short because parts
+/// that do not touch should be cheap to cut apart.
 DualGraph dual_graph(const TriMesh& mesh, const FaceGeometry& geometry);
 
 /// Fills `offsets` and `incident` from `face_count` and `edges`.
 void index_incidence(DualGraph& graph);
 
-/// Component number 0.. of every face when virtual edges are left out, numbered by lowest face.
+/// The component of every face when virtual edges are left out. Components are numbered from 0 in the order
+/// of their lowest face.
 std::vector<int> face_components(const DualGraph& graph);
 
 }  // namespace coseg

@@ -14,8 +14,8 @@ EdgeGroups group_edges(const std::vector<int>& from, const std::vector<int>& to,
         if (from[h] != to[h]) ++begin[at(std::min(from[h], to[h])) + 1];
     }
     for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-    std::vector<std::pair<int, int>> by_lower(
-        static_cast<std::size_t>(begin.back()));  // (higher vertex, half-edge)
+    // (higher vertex, half-edge).
+    std::vector<std::pair<int, int>> by_lower(static_cast<std::size_t>(begin.back()));
     std::vector<int> next(begin.begin(), begin.end() - 1);
     for (std::size_t h = 0; h < from.size(); ++h) {
         if (from[h] == to[h]) continue;

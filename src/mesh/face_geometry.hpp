@@ -1,5 +1,5 @@
 #pragma once
-// Areas, normals and centroids of faces, and the normalisation that makes descriptors free of scale.
+// Areas, normals and centroids of faces, and the normalisation that makes descriptors independent of scale.
 
 #include <Eigen/Core>
 

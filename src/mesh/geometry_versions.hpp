@@ -1,5 +1,6 @@
 #pragma once
-// Versions of the geometry libraries, which only the sources of this folder may name.
+// The names and versions of the libraries of geometry. Their headers may be included in sources only, so that
+// a function must give the versions.
 
 #include <string>
 #include <utility>

@@ -1,5 +1,5 @@
 #pragma once
-// The edges of a triangle mesh as a sorted list, the start of everything that walks over edges.
+// The edges of a triangle mesh as a sorted list. Everything that walks over edges begins with it.
 
 #include <vector>
 
@@ -15,10 +15,11 @@ struct HalfEdge {
     bool forward = false;  ///< the face runs from low to high
 };
 
-/// All 3 F half-edges, sorted by (low, high, face): the two sides of an inner edge are adjacent entries.
+/// All 3 F half-edges, sorted by (low, high, face), so that the two sides of an inner edge are adjacent
+/// entries.
 std::vector<HalfEdge> sorted_half_edges(const TriMesh& mesh);
 
-/// The two sides belong to one edge that two faces share.
+/// Whether the two sides belong to one edge that two faces share.
 [[nodiscard]] inline bool share_edge(const HalfEdge& x, const HalfEdge& y) noexcept {
     return x.low == y.low && x.high == y.high && x.face != y.face;
 }

@@ -7,8 +7,8 @@
 
 namespace coseg {
 
-/// The area of every face, in the square of the file's unit: the sum over the fan of triangles from the face's first
-/// corner. Exact for convex planar polygons; 0 for a face of fewer than three corners.
+/// The area of every face, in the square of the file's unit. It is the sum over the fan of triangles from the
+/// face's first corner: exact for convex planar polygons, and 0 for a face of fewer than three corners.
 std::vector<double> polygon_areas(const PolygonMesh& mesh);
 
 }  // namespace coseg

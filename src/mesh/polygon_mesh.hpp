@@ -6,7 +6,8 @@
 
 namespace coseg {
 
-/// Faces keep the file's order and number, whatever their shape: every one of them is given a label.
+/// Faces keep the order and the number that they have in the file, whatever their shape, because every one of
+/// them is given a label.
 struct PolygonMesh {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<int> offsets;  ///< F + 1 (or empty): face f's corners are corners[offsets[f] .. offsets[f+1])

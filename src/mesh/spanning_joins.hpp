@@ -1,5 +1,5 @@
 #pragma once
-// The shortest way to join groups of points: a minimum spanning tree over the groups.
+// Finds the shortest way to join groups of points: a minimum spanning tree over the groups.
 
 #include <Eigen/Core>
 #include <vector>
@@ -13,12 +13,13 @@ struct PointJoin {
     double distance = 0.0;
 };
 
-/// Joins the groups of a point set by the minimum spanning tree in which two groups are as far apart as their
-/// nearest points; of pairs equally near the one with the lowest points is taken, so the answer is unique.
-/// points: 3 x P, finite. group: P numbers in 0..groups-1, each group non-empty.
+/// Joins the groups of a point set by the minimum spanning tree in which the distance of two groups is that
+/// of their nearest points. Of pairs at the same distance the one with the lowest points is taken, so that
+/// the answer is unique. points: 3 x P, finite. group: P numbers in 0 .. groups-1, each group non-empty.
 /// Returns groups - 1 joins, sorted by (point_a, point_b).
-/// Source: Boruvka's rounds over a k-d tree whose nodes know if they lie inside one group (March, Ram, Gray
-/// 2010, "Fast Euclidean minimum spanning tree", KDD). Deviates: one tree, not two against each other.
+/// Source: Boruvka's rounds over a k-d tree whose nodes know whether they lie inside one group (March, Ram,
+/// Gray 2010, "Fast Euclidean minimum spanning tree", KDD).
+/// Deviates: one tree is searched, where the source compares two trees with each other.
 std::vector<PointJoin> spanning_joins(const Eigen::Matrix3Xd& points, const std::vector<int>& group,
                                       int groups);
 

@@ -5,8 +5,9 @@
 
 namespace coseg {
 
-/// A closed or open triangle mesh whose edges have at most two faces each, consistently oriented.
-/// Readers and generators establish this (see src/repair/mesh_repair.hpp); the stages after them rely on it.
+/// A closed or open triangle mesh. Each edge has at most two faces, and all faces are consistently oriented.
+/// Readers and generators establish this (see src/repair/mesh_repair.hpp), and the stages after them rely on
+/// it.
 struct TriMesh {
     Eigen::Matrix3Xd vertices;  ///< 3 x V, any unit; the pipeline scales to area 1 (scale_to_unit_area)
     Eigen::Matrix3Xi faces;     ///< 3 x F, counter-clockwise seen from outside

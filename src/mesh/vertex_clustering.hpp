@@ -1,5 +1,5 @@
 #pragma once
-// A coarser mesh for looking at.
+// Makes a coarser mesh for display.
 
 #include <vector>
 
@@ -9,11 +9,12 @@ namespace coseg {
 
 struct ClusteredMesh {
     TriMesh mesh;
-    std::vector<int> triangle;  ///< per triangle the one of the input that it was
+    std::vector<int> triangle;  ///< per triangle: the triangle of the input that it was
 };
 
-/// The mesh with at most `most_faces` triangles: vertices in one cell of a grid become their mean, and triangles that
-/// fall together or lose their area go. The finest grid that does it; the mesh as it is if it has no more. Keeps no topology.
+/// The mesh with at most `most_faces` triangles. Vertices in one cell of a grid are replaced by their mean.
+/// Triangles that become equal or lose their area are removed. The grid is the finest that reaches the
+/// number; a mesh that already has no more triangles is returned as it is. The topology is not kept.
 /// Source: Rossignac and Borrel 1993.
 ClusteredMesh clustered(const TriMesh& mesh, int most_faces);
 

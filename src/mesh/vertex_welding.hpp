@@ -1,5 +1,5 @@
 #pragma once
-// Vertices that a file repeats at one place, made one again.
+// Joins vertices that a file repeats at the same coordinates.
 
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace coseg {
 
-/// Per vertex the number of the vertex that stands for it: the lowest one with equal coordinates (-0 equals
-/// 0). Only vertices that may be welded take part: those on an edge with a single face (seams of exported
-/// textures and normals, polygon soups), and those joined by an edge without length. So a closed mesh keeps
-/// its vertices, and closed parts that touch stay apart.
+/// For each vertex the number of the vertex that replaces it: the lowest one with equal coordinates, where -0
+/// equals 0. Two kinds of vertices take part: those on an edge that only one face has (seams of exported
+/// textures and normals, polygon soups), and those joined by an edge without length. A closed mesh therefore
+/// keeps its vertices, and closed parts that touch stay apart.
 std::vector<int> weld_vertices(const PolygonMesh& mesh);
 
 }  // namespace coseg

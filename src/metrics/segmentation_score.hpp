@@ -1,5 +1,5 @@
 #pragma once
-// How well one segmentation of a whole collection agrees with the truth.
+// Measures how well one segmentation of a whole collection agrees with the truth.
 
 #include <optional>
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace coseg {
 
-/// One shape with its truth and what was found. Labels of the truth and of the answer are numbers that the
-/// whole collection shares; the two numberings have nothing to do with each other.
+/// One shape with its true labels and those that were found. The labels of the truth are numbers that the
+/// whole collection shares, and so are those of the answer. The two numberings are independent of each other.
 struct LabelledShape {
     std::string name;
     std::vector<int> truth;  ///< F; a face of negative truth counts in the area, never as right
-    std::optional<std::vector<int>> labels;  ///< F; none: the shape was not segmented and scores 0
+    std::optional<std::vector<int>> labels;  ///< F; none if the shape was not segmented, which scores 0
     std::vector<double> face_area;           ///< F, any unit; may be empty where labels is none
 };
 
@@ -31,7 +31,7 @@ struct ShapeScore {
 struct SegmentationScore {
     double one_to_one = 0.0;       ///< accuracy under the one assignment that is best over the collection
     double many_to_one = 0.0;      ///< accuracy if each part takes the label that covers most of its area
-    double one_label = 0.0;        ///< one_to_one of one part for the whole collection: the figure to beat
+    double one_label = 0.0;        ///< one_to_one of a single part for everything: the figure to beat
     double rand_index = 0.0;       ///< by area, see src/metrics/rand_index.hpp
     double face_rand_index = 0.0;  ///< by number of faces
     int clusters = 0;              ///< parts that occur in the answer on faces with a truth label
@@ -39,16 +39,17 @@ struct SegmentationScore {
     std::vector<ShapeScore> shapes;
 };
 
-/// Scores a collection. Accuracy of a shape = area of the faces whose part is mapped to their truth label, over
-/// the area of the shape; one mapping serves the whole collection, and every shape weighs the same in it. A part
-/// that the one-to-one assignment leaves over is wrong everywhere.
-/// Throws Error(input) where lengths differ, an area is negative or not finite, or a shape has no area.
-/// Source: accuracy by area, Kalogerakis, Hertzmann, Singh 2010; a single assignment for the whole collection,
-/// since the parts of an unsupervised answer have no names.
+/// Scores a collection. The accuracy of a shape is the area of the faces whose part is mapped to their true
+/// label, divided by the area of the shape. One mapping serves the whole collection, and every shape has the
+/// same weight in it. A part that the one-to-one assignment leaves over is wrong everywhere. Throws
+/// Error(input) where lengths differ, an area is negative or not finite, or a shape has no area.
+/// Source: accuracy by area, Kalogerakis, Hertzmann, Singh 2010. The assignment is one for the whole
+/// collection because the parts of an unsupervised answer have no names.
 SegmentationScore score_segmentation(const std::vector<LabelledShape>& shapes);
 
-/// The accuracy of the shape if each of its own labels, e.g. its patches, took the truth label that covers most of it:
-/// what no choice of parts for these patches can exceed. In [0, 1]; 0 without labels. Errors as above.
+/// The accuracy of the shape if each of its own labels, for example its patches, took the true label that
+/// covers most of it. No choice of parts for these patches can exceed it. In [0, 1]; 0 without labels. Errors
+/// as above.
 double upper_bound_of_labels(const LabelledShape& shape);
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// How patches of one mesh touch (inside one over-segmentation) and overlap (between two).
+// Finds which patches of one mesh touch (inside one over-segmentation) and which overlap (between two).
 
 #include <Eigen/Core>
 #include <vector>
@@ -13,7 +13,7 @@ struct PatchNeighbors {
     int patch_a = -1;  ///< patch_a < patch_b, of the same over-segmentation
     int patch_b = -1;
     double boundary_length = 0.0;  ///< > 0 unless every shared edge has no length; unit of the mesh
-    double concavity = 0.0;        ///< mc in [0, 1]
+    double concavity = 0.0;        ///< mc of the paper, in [0, 1]
 };
 
 struct PatchOverlap {
@@ -22,15 +22,15 @@ struct PatchOverlap {
     double intersection_over_union = 0.0;  ///< of areas, in (0, 1]
 };
 
-/// Area per patch, 0..count-1; 0 for a patch without faces.
+/// The area of each patch 0 .. count-1; 0 for a patch without faces.
 Eigen::VectorXd patch_areas(const FaceGeometry& geometry, const std::vector<int>& patch_of_face, int count);
 
 /// The pairs of patches with a common boundary, ascending by (patch_a, patch_b). boundary_length sums the
 /// lengths of the dual edges between them. concavity is the length-weighted mean over these edges of the mean
-/// of `vertex_minimum_curvature` (per vertex, [0, 1]: src/descriptors/minimum_curvature.hpp) at the edge's two ends. A
-/// virtual edge counts with its (short) fictitious length and concavity 0: it exists to keep separate
-/// components together, and a concave one would have no effect in length * (1 - mc)^5. Concavity is 0 where
-/// all shared edges have no length.
+/// of `vertex_minimum_curvature` (per vertex, [0, 1]: src/descriptors/minimum_curvature.hpp) at the edge's
+/// two ends. A virtual edge counts with its (short) fictitious length and concavity 0: it exists to keep
+/// separate components together, and a concave one would have no effect in length * (1 - mc)^5. Concavity is
+/// 0 where all shared edges have no length.
 ///
 /// Source: Hu, Fan, Liu 2012 (minima rule, mc).
 ///

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of shapes laid out in a grid, with a heading, a legend and names.
+// Lays out pictures of shapes in a grid, with a heading, a legend and names.
 
 #include <optional>
 #include <string>
@@ -20,7 +20,7 @@ struct LegendEntry {
 };
 
 struct ColorScaleBar {
-    std::string low;  ///< what its ends stand for
+    std::string low;  ///< the values that its ends stand for
     std::string high;
 };
 
@@ -31,10 +31,10 @@ struct SheetHeading {
     std::optional<ColorScaleBar> scale;  ///< of src/pictures/color_scale.hpp
 };
 
-/// Columns of a grid of `count` tiles on a page somewhat wider than high.
+/// The number of columns with which `count` tiles fill a page somewhat wider than high.
 int sheet_columns(int count);
 
-/// The page. tiles: at least one.
+/// The page of all tiles, of which there must be at least one.
 Image contact_sheet(const std::vector<SheetTile>& tiles, const SheetHeading& heading, int columns);
 
 }  // namespace coseg

@@ -35,14 +35,14 @@ double srgb_of_linear(double value);
 /// Blends `color` over the pixel, coverage in 0..1; outside the image nothing happens.
 void blend(Image& image, int x, int y, const Color& color, double coverage);
 
-/// Fills the rectangle, as far as it lies in the image.
+/// Fills the part of the rectangle that lies in the image.
 void fill_rectangle(Image& image, int x, int y, int width, int height, const Color& color);
 
 /// Copies `piece` with its corner at (x, y); what lies outside is left out.
 void paste(Image& image, const Image& piece, int x, int y);
 
-/// The mean, in light, of the area that each pixel of the smaller picture covers. width, height: at most
-/// those of the image.
+/// The image made smaller. Each pixel is the mean, in intensity of light, of the area that it covers. width,
+/// height: at most those of the image.
 Image shrunk(const Image& image, int width, int height);
 
 }  // namespace coseg

@@ -11,9 +11,9 @@ namespace coseg {
 
 namespace {
 
-// The letters of ASCII 33..126 as pen strokes: strokes are parted by blanks, each is a list of points, two digits
-// a point: x, and y upwards with the descender at 0, the baseline at 2, small letters up to 6, capitals up to 8.
-// A stroke that begins with ~ is rounded.
+// The letters of ASCII 33..126 as pen strokes: strokes are parted by blanks, each is a list of points, two
+// digits a point: x, and y upwards with the descender at 0, the baseline at 2, small letters up to 6,
+// capitals up to 8. A stroke that begins with ~ is rounded.
 constexpr std::array<std::string_view, 94> letters = {
     /* ! " # $ % */ "0804 0202",
     "0806 2826",

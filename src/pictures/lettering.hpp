@@ -1,5 +1,5 @@
 #pragma once
-// Words in a picture, without a font file.
+// Writes text into a picture without a font file.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace coseg {
 
-/// Draws ASCII text (any other byte as a box) with its baseline's left end at (x, y), capitals `height` pixels
-/// tall, anti-aliased. What lies outside the image is left out.
+/// Draws ASCII text (any other byte as a box) with its baseline's left end at (x, y), capitals `height`
+/// pixels tall, anti-aliased. What lies outside the image is left out.
 void draw_text(Image& image, double x, double y, const std::string& text, double height, const Color& color);
 
 /// The width in pixels that draw_text takes.

@@ -1,5 +1,5 @@
 #pragma once
-// Rays into a mesh as it is drawn: what the eye meets, and what stands in the way of light.
+// Traces rays into a mesh for drawing: what the eye meets, and what blocks the light.
 
 #include <Eigen/Core>
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace coseg {
 
-/// A mesh of about unit size prepared for rays in single precision. Serial: starts no threads.
-/// Errors: Error(internal) if the ray tracer cannot be set up.
+/// A mesh of about unit size, prepared for rays in single precision. Serial: it starts no threads. Throws
+/// Error(internal) if the ray tracer cannot be set up.
 class PictureRays {
   public:
     static constexpr int packet = 16;
@@ -27,7 +27,7 @@ class PictureRays {
     PictureRays(const PictureRays&) = delete;
     PictureRays& operator=(const PictureRays&) = delete;
 
-    /// The nearest triangle, from either side, along each of 16 rays from one eye.
+    /// The nearest triangle along each of 16 rays from one eye, whichever side of it is met.
     std::array<Hit, packet> look(const Eigen::Vector3f& eye,
                                  const std::array<Eigen::Vector3f, packet>& directions) const;
 

@@ -20,7 +20,8 @@ using Directions = std::array<Vector3f, packet>;
 constexpr float eye_distance = 8.0F;
 constexpr double crease_degrees = 40.0;
 constexpr int samples = 4;  // a pixel
-// A rotated grid: no two samples in one row or column, so near-horizontal and near-vertical edges get all four steps.
+// A rotated grid: no two samples in one row or column, so near-horizontal and near-vertical edges get all
+// four steps.
 constexpr std::array<std::array<float, 2>, samples> sample_places = {
     {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
 constexpr int pattern = 4;  // pixels after which the directions of light rays repeat; smoothing spans as many
@@ -149,7 +150,8 @@ void Painter::shade(Pixel& pixel, const PictureRays::Hit& hit, const Vector3f& d
     const Vector3f b = picture_.mesh.vertices.col(face[1]).cast<float>();
     const Vector3f c = picture_.mesh.vertices.col(face[2]).cast<float>();
     const Vector3f flat = flipped_towards((b - a).cross(c - a).normalized(), direction);
-    // A smooth normal may lean away from the eye where its triangle does not; then the light's edge would show.
+    // A smooth normal may lean away from the eye where its triangle does not; then the light's edge would
+    // show.
     Vector3f normal = blended.squaredNorm() > 1e-12F ? Vector3f(blended.normalized()) : flat;
     if (normal.dot(flat) < 0.0F) normal = -normal;
 
@@ -241,7 +243,8 @@ void Painter::smooth_light() {
                     const Pixel& other = pixel(u, v);
                     if (other.normal.isZero() || other.normal.dot(here.normal) < 0.8F) continue;
                     if (std::abs((other.place - here.place).dot(here.normal)) > 0.25F * reach) continue;
-                    // The outer ring counts half to either side: 4 x 4 pixels in all, each cell of the pattern once.
+                    // The outer ring counts half to either side: 4 x 4 pixels in all, each cell of the
+                    // pattern once.
                     const float weight =
                         (std::abs(u - x) == 2 ? 0.5F : 1.0F) * (std::abs(v - y) == 2 ? 0.5F : 1.0F);
                     sum[0] += weight * other.open_sky;

@@ -149,13 +149,14 @@ class Remesher {
     }
 
     [[nodiscard]] Hold hold(VertexHandle v) const {
-        constexpr double straight =
-            -0.7;  // cosine between the two directions of a line that does not turn sharply
+        // Cosine between the two directions of a line that does not turn sharply.
+        constexpr double straight = -0.7;
         std::array<Vector3d, 2> directions;
         int lines = 0;
         for (const HalfedgeHandle h : kernel_.voh_range(v)) {
             if (!is_line(kernel_.edge_handle(h))) continue;
-            if (lines < 2) directions[lines] = (point_of(kernel_.to_vertex_handle(h)) - point_of(v)).normalized();
+            if (lines < 2)
+                directions[lines] = (point_of(kernel_.to_vertex_handle(h)) - point_of(v)).normalized();
             ++lines;
         }
         if (lines == 0) return Hold::free;

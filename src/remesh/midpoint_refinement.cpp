@@ -68,8 +68,8 @@ class EdgeSplitter {
 
   private:
     /// Longest first; among equals the lower pair of vertices, then the lower half-edge.
-    using Entry =
-        std::tuple<double, int, int, int>;  // (squared length, -lower vertex, -higher vertex, -half-edge)
+    // (squared length, -lower vertex, -higher vertex, -half-edge).
+    using Entry = std::tuple<double, int, int, int>;
 
     [[nodiscard]] static int next(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
     [[nodiscard]] int start(int h) const { return faces_[at(h / 3)][h % 3]; }

@@ -1,5 +1,5 @@
 #pragma once
-// More faces for meshes too coarse to be cut into patches.
+// Gives more faces to meshes that are too coarse to be cut into patches.
 
 #include "src/mesh/face_map.hpp"
 #include "src/mesh/tri_mesh.hpp"
@@ -7,12 +7,12 @@
 namespace coseg {
 
 /// Splits the longest edge at its midpoint, again and again, until the mesh has at least minimum_faces faces
-/// (at most one more than that). Both faces at the edge are split, so the mesh stays as manifold, oriented
-/// and closed as it was and its surface does not move; triangles become even in size and their angles stay
-/// bounded (Rivara 1984). Edges of equal length go in the order of their vertex numbers. map.input_face is
-/// extended: each half belongs to the input face of the whole. New vertices and faces come last. Does nothing
-/// if the mesh is fine enough or has no faces. Cost: O(n log n) for n faces in the end. Throws Error(input)
-/// if doubles cannot halve the edges that often.
+/// (and at most one more). Both faces at the edge are split, so that the mesh stays as manifold, oriented and
+/// closed as it was, and its surface does not move. Triangles become even in size, and their angles stay
+/// bounded (Rivara 1984). Edges of equal length are split in the order of their vertex numbers.
+/// map.input_face is extended: each half belongs to the input face of the whole. New vertices and faces come
+/// last. Nothing changes if the mesh is fine enough or has no faces. Cost: O(n log n) for n faces in the end.
+/// Throws Error(input) if doubles cannot halve the edges that often.
 void refine_to_face_count(TriMesh& mesh, FaceMap& map, int minimum_faces);
 
 }  // namespace coseg

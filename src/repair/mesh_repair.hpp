@@ -1,5 +1,5 @@
 #pragma once
-// From the polygons of a file to a triangle mesh that every geometric stage can rely on.
+// Makes of the polygons of a file a triangle mesh that every geometric stage can rely on.
 
 #include <string>
 #include <vector>
@@ -13,17 +13,18 @@ namespace coseg {
 struct RepairedMesh {
     TriMesh mesh;  ///< at most two faces an edge, in opposite directions; one fan a vertex
     FaceMap map;   ///< working faces -> input faces; refers to input_faces = input.face_count()
-    std::vector<std::string>
-        warnings;  ///< one short sentence with counts per kind of repair, beginning with name
+    /// One short sentence with counts for each kind of repair, beginning with the mesh's name.
+    std::vector<std::string> warnings;
 };
 
-/// Triangulates polygons (polygon_triangulation.hpp), welds repeated vertices (vertex_welding.hpp), takes out
-/// faces without area (degenerate_faces.hpp; they get a stand-in, label_donor_faces.hpp), cuts non-manifold
-/// edges and vertices and orients (manifold_cut.hpp), and leaves out vertices without a face. A closed,
-/// outward, manifold triangle mesh comes back as it is: same faces, same vertices, no warning. Working faces
-/// keep the order of their input faces, except that pieces of a face split to close the gap of a degenerate
-/// neighbour come last. Depends on nothing but the input; name is for messages only. Throws Error(input) if a
-/// corner is no vertex, a coordinate is not finite, or no face has an area.
+/// Repairs in five steps: it triangulates polygons (polygon_triangulation.hpp), welds repeated vertices
+/// (vertex_welding.hpp), removes faces without area (degenerate_faces.hpp; label_donor_faces.hpp says whose
+/// label they take), cuts non-manifold edges and vertices and orients the faces (manifold_cut.hpp), and
+/// leaves out vertices without a face. A closed, outward, manifold triangle mesh comes back as it is, with
+/// the same faces and vertices and without a warning. Working faces keep the order of their input faces. Only
+/// the pieces of a face that was split to close the gap of a degenerate neighbour come last. The result
+/// depends on nothing but the input; name is for messages only. Throws Error(input) if a corner refers to no
+/// vertex, a coordinate is not finite, or no face has an area.
 RepairedMesh repair(const PolygonMesh& input, const std::string& name);
 
 }  // namespace coseg
