@@ -1,12 +1,12 @@
 #pragma once
-// The minimum cut between a source and a sink.
+// Finds the minimum cut between a source and a sink.
 
 #include <vector>
 
 namespace coseg {
 
-/// What it costs to separate two nodes: `capacity` if `from` is on the source side and `to` on the sink side,
-/// `reverse_capacity` the other way round. Both >= 0 and finite.
+/// The cost of separating two nodes: `capacity` if `from` is on the source side and `to` on the sink side,
+/// `reverse_capacity` in the opposite case. Both are >= 0 and finite.
 struct CutArc {
     int from = -1;
     int to = -1;

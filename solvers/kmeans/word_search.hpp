@@ -1,5 +1,5 @@
 #pragma once
-// The nearest of a few hundred words (centres of clusters) for many points.
+// Finds the nearest of a few hundred words (centres of clusters) for many points.
 
 #include <Eigen/Core>
 #include <span>
@@ -8,13 +8,13 @@
 namespace coseg {
 
 struct NearestWord {
-    int word = 0;                  ///< the lowest number among equally near ones
+    int word = 0;                  ///< the lowest number among words at the same distance
     float distance = 0.0F;         ///< Euclidean, to that word
     float second_distance = 0.0F;  ///< not above the distance to any other word; infinity if there is none
 };
 
-/// Searches one set of words; single precision, blocks of fixed size, so a result depends on the words and on
-/// the list of points only.
+/// Searches one set of words in single precision. Blocks have a fixed size, so that a result depends on the
+/// words and on the list of points only.
 class WordSearch {
   public:
     /// words: d x K, column major, K >= 1.

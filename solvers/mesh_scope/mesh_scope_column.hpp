@@ -1,6 +1,6 @@
 #pragma once
-// One column of mesh scope on a working set of its pairs: the model that the spectral projected gradient
-// moves.
+// One column of mesh scope on a working set of its pairs: the model on which the spectral projected gradient
+// works.
 
 #include <span>
 #include <vector>
@@ -18,8 +18,8 @@ struct ColumnPenalties {
     double lambda = 0.0;
 };
 
-/// Whether the bound that shifts the dual is worth computing: raising the price of a group costs in inverse
-/// proportion to lambda, so it is where lambda is small against the columns' squared norms.
+/// Whether it pays to compute the bound that shifts the dual. Raising the price of a group costs in inverse
+/// proportion to lambda, so that shifting pays where lambda is small against the columns' squared norms.
 inline bool shift_pays(const FeatureStack& stack, const ColumnPenalties& penalties) {
     return penalties.lambda < stack.largest_inner;
 }
@@ -28,11 +28,11 @@ inline bool shift_pays(const FeatureStack& stack, const ColumnPenalties& penalti
 struct WorkingColumn {
     int column = 0;                ///< in the stack's order
     std::vector<int> rows;         ///< ascending
-    std::vector<int> group_begin;  ///< where each group's run of rows begins, and rows.size() at the end
+    std::vector<int> group_begin;  ///< the first row of each group, and rows.size() at the end
     std::vector<double> weights;   ///< rows.size() x H
 };
 
-/// Minimises, over the pairs of `column`, sum_h ||X_h w_h - x_h||^2 - ||x_h||^2 + penalties: minus the
+/// Minimises sum_h ||X_h w_h - x_h||^2 - ||x_h||^2 + penalties over the pairs of `column`. This is minus the
 /// decrease from W = 0, so that small decreases keep their digits.
 class MeshScopeColumn {
   public:
@@ -42,7 +42,7 @@ class MeshScopeColumn {
     TrialPoint propose(double step);
     void accept();
 
-    /// An upper bound of the decrease that any W on these pairs can reach; rounding is not allowed for.
+    /// An upper bound of the decrease that any W on these pairs can reach. Rounding is not allowed for.
     [[nodiscard]] double largest_decrease();
 
     /// Per group of the working column: the sum of its pairs' norms.

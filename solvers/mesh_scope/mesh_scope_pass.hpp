@@ -1,6 +1,6 @@
 #pragma once
-// Mesh scope's look at all allowed pairs of some columns: what must enter their working sets, and how far
-// their decrease can still go.
+// Mesh scope's pass over all allowed pairs of some columns. It tells which pairs must enter their working
+// sets and how much their objective can still decrease.
 
 #include <Eigen/Core>
 #include <limits>
@@ -12,10 +12,10 @@
 
 namespace coseg {
 
-/// The columns sorted by mesh, so that a mesh's patches are a run: group g of rows is group_begin[g] ..
-/// group_begin[g + 1].
+/// The columns sorted by mesh, so that the patches of a mesh follow one another: group g of rows is
+/// group_begin[g] .. group_begin[g + 1].
 struct MeshOrder {
-    std::vector<int> order;        ///< sorted place -> patch of the problem; ascending within a mesh
+    std::vector<int> order;        ///< the patch of the problem at each sorted place, ascending within a mesh
     std::vector<int> place;        ///< its inverse
     std::vector<int> group_begin;  ///< groups + 1
     std::vector<int> group_mesh;   ///< ascending
@@ -29,10 +29,10 @@ struct GroupLeaders {
     double norm[2] = {0.0, 0.0};
 };
 
-/// What a pass says of one column.
+/// The findings of a pass for one column.
 struct ColumnVerdict {
     std::vector<GroupLeaders> leaders;  ///< per group; without the working set's rows
-    /// No W decreases the column's objective by more; rounding is allowed for.
+    /// No W decreases the column's objective by more than this; rounding is allowed for.
     double largest_decrease = std::numeric_limits<double>::infinity();
 };
 
@@ -43,8 +43,9 @@ struct PassColumn {
     std::vector<double> group_sums;          ///< per group of rows: s_g
 };
 
-/// Scores all rows of the groups `allowed` (ascending) against the columns, save a column's own group, as
-/// blocked matrix products. Single precision finds the same answers with a wider allowance for rounding.
+/// Scores all rows of the groups `allowed` (ascending) against the columns, except the own group of a column,
+/// as blocked matrix products. Single precision finds the same answers as double precision, with a wider
+/// allowance for rounding.
 class MeshScopePass {
   public:
     /// `stack`: in the order of `meshes`. Collective; the rest is not.

@@ -1,5 +1,5 @@
 #pragma once
-// Faces grouped bottom-up into super-faces, so that spectral cuts work on small graphs.
+// Groups faces bottom-up into super-faces, so that spectral cuts work on small graphs.
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// One cut of a weighted graph into two sides, by the second eigenvector of its Laplacian.
+// Cuts a weighted graph into two sides by the second eigenvector of its Laplacian.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace coseg {
 
-/// Where the order of nodes that was swept came from.
+/// Says how the order of nodes was found along which the cut was searched.
 enum class CutOrigin {
     components,  ///< the graph was not connected: the component of node 0 against the rest, value 0
     lanczos,     ///< Fiedler vector by Lanczos iterations on the inverse of the Laplacian
@@ -31,8 +31,9 @@ struct FiedlerPair {
     CutOrigin origin = CutOrigin::lanczos;
 };
 
-/// The graph must be connected with at least two nodes. Lanczos for more than a few dozen nodes, else dense.
-/// Where Lanczos does not converge the dense solve follows; where that fails too, `vector` is empty.
+/// The graph must be connected and have at least two nodes. Graphs of more than a few dozen nodes are solved
+/// by Lanczos iterations, others densely. Where Lanczos does not converge, the dense solve follows. Where
+/// that fails too, `vector` is empty.
 FiedlerPair fiedler_pair(const WeightedGraph& graph);
 
 /// The best cut among the prefixes of the nodes sorted by the Fiedler vector: the one with the smallest

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh cut into many small patches, the units that are later clustered into parts.
+// Cuts a mesh into many small patches, the units that are later clustered into parts.
 
 #include <cstdint>
 #include <vector>
@@ -13,28 +13,30 @@ struct OversegmentationOptions {
     int patches = 50;  ///< p, >= 1
     /// Standard deviation of the logarithm of the edge weights' noise, >= 0; 0: no randomness.
     double noise = 0.3;
-    /// Faces are agglomerated to this many before the cuts (never fewer than `patches`).
+    /// Before the cuts, faces are agglomerated to this number of super-faces (never fewer than `patches`).
     int super_faces = 1500;
 };
 
-/// Patch 0..count-1 per face. Every patch is non-empty and connected in the dual graph (virtual edges count);
-/// count = min(patches, faces), patches numbered by their lowest face. With no more faces than patches each
-/// face is a patch. A dual graph in several components (none that src/mesh/dual_graph.hpp makes) gives at
-/// least one patch each.
+/// The patch of each face, 0 .. count-1, with count = min(patches, faces). Every patch is non-empty and
+/// connected in the dual graph, where virtual edges count. Patches are numbered by their lowest face. With no
+/// more faces than patches, each face is a patch. A dual graph in several components (src/mesh/dual_graph.hpp
+/// makes none) gives at least one patch for each.
 ///
-/// Edge weight = length * dihedral_cost * exp(noise * n), n standard normal, a function of `seed` and of the
-/// edge's two vertices (faces for a virtual edge) only. Faces are agglomerated to super-faces; then always
-/// the region whose best cut has the smallest cut / A_1 + cut / A_2 is cut in two
-/// (solvers/oversegmentation/fiedler_cut.hpp, masses = areas), each side falling apart into its connected
-/// pieces, until there are p regions; of surplus ones the smallest in area goes to the neighbour it shares
-/// the most edge weight with. Free of scale; the order of faces matters only where values tie. `geometry` and
-/// `graph` are of the same mesh. Throws Error(usage) for options out of range.
+/// The weight of an edge is length * dihedral_cost * exp(noise * n). Here n is standard normal and a
+/// function of `seed` and of the edge's two vertices only (of its two faces for a virtual edge). Faces are
+/// agglomerated to super-faces. Then, again and again, the region whose best cut has the smallest
+/// cut / A_1 + cut / A_2 is cut in two (solvers/oversegmentation/fiedler_cut.hpp, with areas as masses), and
+/// each side is split into its connected pieces, until there are p regions. Of surplus regions the smallest
+/// in area joins the neighbour with which it shares the most edge weight. The result does not depend on
+/// scale; the order of faces matters only where values tie. `geometry` and `graph` are of the same mesh.
+/// Throws Error(usage) for options out of range.
 ///
 /// Source: Hu, Fan, Liu 2012 (p = 50 patches a mesh by normalised cuts on the graph of faces).
 ///
-/// Deviates: weights are boundary lengths times a dihedral cost instead of exp(-d / mean d), and the cut is
-/// recursive and two-way; one K-way spectral clustering gives disconnected and empty patches. The noise makes
-/// several over-segmentations of one mesh differ where the cut is arbitrary; they are pooled.
+/// Deviates: weights are boundary lengths times a dihedral cost instead of exp(-d / mean d), and the cut
+/// is recursive and two-way, because one K-way spectral clustering gives disconnected and empty patches. The
+/// noise makes several over-segmentations of one mesh differ where the cut is arbitrary; all of them are used
+/// together.
 std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& graph,
                              const OversegmentationOptions& options, std::uint64_t seed);
 

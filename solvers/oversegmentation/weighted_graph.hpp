@@ -1,5 +1,6 @@
 #pragma once
-// A small undirected graph with masses on its nodes and weights on its edges, and what is cut out of it.
+// A small undirected graph with masses on its nodes and weights on its edges, and the subgraphs that are made
+// of it.
 
 #include <vector>
 
@@ -24,13 +25,13 @@ struct WeightedGraph {
 /// Parallel edges add up in the order given; loops are dropped.
 WeightedGraph weighted_graph(std::vector<double> mass, const std::vector<WeightedEdge>& edges);
 
-/// The graph between some nodes; its node k is nodes[k]. Nodes must be ascending.
+/// The graph induced by some nodes; its node k is nodes[k]. Nodes must be ascending.
 WeightedGraph induced_subgraph(const WeightedGraph& graph, const std::vector<int>& nodes);
 
-/// Every group becomes one node: masses and parallel edges add up. `group` per node, 0..groups-1.
+/// Makes every group one node: masses and parallel edges add up. `group` per node, 0 .. groups-1.
 WeightedGraph contracted_graph(const WeightedGraph& graph, const std::vector<int>& group, int groups);
 
-/// Component number per node, 0.. by lowest node.
+/// The component of each node. Components are numbered from 0 in the order of their lowest node.
 std::vector<int> connected_components(const WeightedGraph& graph);
 
 }  // namespace coseg

@@ -1,6 +1,6 @@
 #pragma once
-// Row scope's look at all N^2 pairs: a lower bound of the optimum, and the pairs that must enter the
-// working set.
+// Row scope's pass over all N^2 pairs. It gives a lower bound of the optimum and the pairs that must enter
+// the working set.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -16,15 +16,16 @@
 
 namespace coseg {
 
-/// What a pass found.
+/// The findings of a pass.
 struct PassFindings {
     double lower_bound = 0.0;
     std::vector<std::vector<int>> entering;  ///< per owned column: rows that violate optimality, ascending
     std::int64_t entering_pairs = 0;         ///< all ranks
 };
 
-/// Matrix products in single precision (pair_score_kernel.hpp); pairs too close to their limit for that are
-/// looked at in double, so the bound holds under rounding. Nothing of size N^2 is stored.
+/// Scores are matrix products in single precision (pair_score_kernel.hpp). Pairs too close to their limit for
+/// that are computed again in double precision, so that the bound holds under rounding. Nothing of size N^2
+/// is stored.
 ///
 /// Of the violating pairs, the `kept` worst of each row and of each column enter.
 class AllPairsPass {
@@ -38,10 +39,11 @@ class AllPairsPass {
     AllPairsPass(const AllPairsPass&) = delete;
     AllPairsPass& operator=(const AllPairsPass&) = delete;
 
-    /// At W = 0: looks for the pairs that pull most; the bound is that of W = 0 if there are none, else 0.
+    /// The pass at W = 0. It looks for the pairs with the largest gradient. The bound is that of W = 0 if
+    /// there are none, else 0.
     PassFindings first(const WorkingSet& working);
-    /// At the working set's weights, whose row sums are given (H values of a row together). Collective, like
-    /// first.
+    /// The pass at the weights of the working set, whose row sums are given (H values of a row together).
+    /// Collective, like first.
     PassFindings run(const WorkingSet& working, const std::vector<double>& row_sums);
 
     [[nodiscard]] const PassCost& cost() const noexcept { return cost_; }
@@ -49,7 +51,7 @@ class AllPairsPass {
   private:
     struct Candidate {
         double score = 0.0;
-        std::int64_t place = -1;  ///< column of a row's candidate, row of a column's
+        std::int64_t place = -1;  ///< the column of a row's candidate, or the row of a column's
     };
     struct Tile;
 
@@ -85,8 +87,8 @@ class AllPairsPass {
     std::vector<Candidate> row_best_;
     std::vector<Candidate> column_best_;  ///< of the owned columns
     std::vector<float> row_least_;        ///< square of the least score kept of each row, padded
-    std::unique_ptr<Tile> tile_;          ///< its arrays are used again
-    std::vector<double> pair_scores_;     ///< of the pair at hand
+    std::unique_ptr<Tile> tile_;          ///< kept because its arrays are used again
+    std::vector<double> pair_scores_;     ///< of the pair that is being looked at
     bool any_violation_ = false;
     PassCost cost_;
 };

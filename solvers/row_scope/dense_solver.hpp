@@ -1,5 +1,6 @@
 #pragma once
-// The reference: row scope with every pair stored, spectral projected gradient to the letter.
+// The reference solver of row scope: every pair is stored, and the method is the spectral projected gradient
+// as published.
 
 #include "solvers/subspace/solve_result.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
@@ -7,8 +8,8 @@
 
 namespace coseg {
 
-/// Stores 3 H N^2 doubles in all; one reduction of the H N row sums per trial step, one maximum of as many
-/// per certificate. Requires a valid problem of row scope. Collective.
+/// Stores 3 H N^2 doubles in all. Each trial step takes one reduction of the H N row sums, and each
+/// certificate one maximum over as many numbers. Requires a valid problem of row scope. Collective.
 SolveResult solve_dense(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options);
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// Times the looks at all pairs.
+// Measures the time of the passes over all pairs.
 
 #include <mpi.h>
 
@@ -10,7 +10,7 @@
 
 namespace coseg {
 
-/// Adds the time of its life to a cost.
+/// Adds the time between its construction and its destruction to a cost.
 class PassClock {
   public:
     explicit PassClock(PassCost& cost) : cost_(cost), wall_(MPI_Wtime()), cpu_(cpu_seconds()) {}
@@ -21,7 +21,7 @@ class PassClock {
     PassClock(const PassClock&) = delete;
     PassClock& operator=(const PassClock&) = delete;
 
-    /// Of this process, all threads.
+    /// The CPU time of this process, of all its threads.
     static double cpu_seconds() {
         std::timespec time{};
         clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -34,7 +34,7 @@ class PassClock {
     double cpu_;
 };
 
-/// Adds the time of its life, of collective calls, to a cost.
+/// Adds the time between its construction and its destruction, which encloses collective calls, to a cost.
 class CommunicationClock {
   public:
     explicit CommunicationClock(PassCost& cost)

@@ -1,7 +1,7 @@
 #pragma once
-// The proximal point method with semismooth Newton inside: what closes row scope's gap where lambda is small
-// and W reconstructs most of X, so that gradient steps need thousands of iterations and Newton's on a guessed
-// support get stuck.
+// The proximal point method with semismooth Newton steps inside. It closes row scope's gap where lambda is
+// small and W reconstructs most of X. There, gradient steps need thousands of iterations, and Newton steps on
+// a guessed support get stuck.
 
 #include <vector>
 
@@ -17,27 +17,33 @@ namespace coseg {
 struct ProximalPoint {
     const std::vector<double>& weights;  ///< W >= 0, until the next call
     int newton_steps = 0;
-    bool reached = false;  ///< to the accuracy that is asked for
+    bool reached = false;  ///< whether the accuracy asked for was reached
 };
 
-/// min over W >= 0 of the objective + ||W - centre||^2 / (2 reach), on the pairs of a working set. Its dual is smooth and
-/// concave in one vector per column, written here as the residual 2 (X V - X) of some V of any sign:
+/// Finds the minimum over W >= 0 of the objective + ||W - centre||^2 / (2 reach) on the pairs of a working
+/// set.
+///
+/// The dual of this problem is smooth and concave in one vector per column. The vector is written here as the
+/// residual 2 (X V - X) of some V of any sign:
 ///     ||X||^2 - <V, G V> + 2 <G V - X^T X, W> + penalties(W) + ||W - centre||^2 / (2 reach),    G = X^T X,
 ///     W = prox of the penalties at centre - 2 reach (G V - X^T X),
-/// with the gradient X W - X V. Newton's equations come down to those on the support of W (support_newton.hpp), and a full
-/// step takes V to W plus their solution: the prox, not a cut, decides what the support becomes.
-/// Source: Li, Sun, Toh, "A highly efficient semismooth Newton augmented Lagrangian method for solving lasso problems",
-///   SIAM J. Optim. 2018, with the prox of this problem's rows.
+/// with the gradient X W - X V. Newton's equations reduce to those on the support of W (support_newton.hpp).
+/// A full step takes V to W plus their solution, so that the prox decides what the support becomes, and
+/// nothing has to be cut off at 0.
+///
+/// Source: Li, Sun, Toh, "A highly efficient semismooth Newton augmented Lagrangian method for solving
+/// lasso problems", SIAM J. Optim. 2018, with the prox of this problem's rows.
 class ProximalNewton {
   public:
-    /// `fits` are the columns of this rank, `offset` the place of each column's values, `linear` their X^T X;
-    /// all must outlive this.
+    /// `fits` are the columns of this rank, `offset` the index of each column's first value, `linear` their
+    /// X^T X. All must outlive this.
     ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                    const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
                    const std::vector<double>& linear, RowExchange& exchange);
 
-    /// Pairs by columns, H values together. `centre_product` = G centre. `prices`: of the owned rows,
-    /// warm-start their prox. The same bits on any number of ranks. Collective.
+    /// Pairs are ordered by columns, H values together. `centre_product` = G centre. `prices` belong to the
+    /// owned rows, and their prox starts from them. The result has the same bits on any number of ranks.
+    /// Collective.
     ProximalPoint minimise(const std::vector<double>& centre, const std::vector<double>& centre_product,
                            double reach, std::vector<double>& prices);
 

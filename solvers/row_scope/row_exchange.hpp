@@ -1,5 +1,5 @@
 #pragma once
-// Values of W's pairs between the owners of their columns and the owners of their rows.
+// Moves the values of W's pairs between the owners of their columns and the owners of their rows.
 
 #include <cstdint>
 #include <span>
@@ -11,23 +11,23 @@
 
 namespace coseg {
 
-/// The plan of one sparsity pattern. Rows are owned like columns: block_range(N, ranks, rank,
-/// coefficient_tile).
+/// The plan of the exchange for one sparsity pattern. Rows are owned like columns: block_range(N, ranks,
+/// rank, coefficient_tile).
 class RowExchange {
   public:
     /// `rows` of the pairs of this rank's columns, column by column; `features` values a pair. Collective.
     RowExchange(const Comm& comm, std::int64_t size, int features, const std::vector<int>& rows);
 
     [[nodiscard]] BlockRange owned_rows() const noexcept { return owned_; }
-    /// The values of owned row r (counted from owned_rows().begin) in what to_rows gives, H a pair, ascending
-    /// in their columns.
+    /// The values of owned row r (counted from owned_rows().begin) in the result of to_rows: H for each pair,
+    /// ascending in their columns.
     [[nodiscard]] std::span<double> row(std::vector<double>& by_row, std::int64_t r) const {
         const std::size_t begin = row_begin_[at(r)] * features_;
         const std::size_t end = row_begin_[at(r) + 1] * features_;
         return std::span(by_row).subspan(begin, end - begin);
     }
 
-    /// By columns -> by rows, and back. Collective.
+    /// Moves values that are ordered by columns into the order by rows, and back. Collective.
     void to_rows(const std::vector<double>& by_column, std::vector<double>& by_row);
     void to_columns(const std::vector<double>& by_row, std::vector<double>& by_column);
 

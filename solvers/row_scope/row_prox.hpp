@@ -1,5 +1,5 @@
 #pragma once
-// The prox of row scope's penalties on one row of W, the squared row sums included.
+// The proximal map (prox) of row scope's penalties on one row of W, the squared row sums included.
 
 #include <span>
 #include <vector>
@@ -15,8 +15,8 @@ class RowProx {
   public:
     RowProx(int features, double alpha, double beta, double lambda);
 
-    /// `v`: the row's pairs, H values together; becomes w. `price`: H values, the first guess of p; becomes
-    /// p. Serial; the bits depend on the arguments alone.
+    /// `v` holds the row's pairs, H values together, and becomes w. `price` holds H values, the first guess
+    /// of p, and becomes p. Serial; the bits depend on the arguments alone.
     void shrink(std::span<double> v, double step, std::span<double> price);
 
     /// The penalties of one row w, pairs as in shrink(); `sums` become sum_j w_j, H values.
@@ -36,7 +36,7 @@ class RowProx {
     double dual_ = 0.0;              ///< the dual function at the price last evaluated
     std::vector<double> slope_;      ///< its gradient, p / (2 lambda) - sum_j w_j
     std::vector<double> curvature_;  ///< its generalised Hessian, H x H
-    std::vector<double> excess_;     ///< (v_j - step (p + beta))_+ of the pair at hand
+    std::vector<double> excess_;     ///< (v_j - step (p + beta))_+ of the current pair
     std::vector<double> direction_;
     std::vector<double> trial_price_;
 };

@@ -1,7 +1,7 @@
 #pragma once
-// Newton's equations on the support of W: the linear algebra of row scope where lambda is small and the
-// columns' Gram matrices are ill-conditioned, so that gradient steps alone would need thousands of
-// iterations.
+// Solves Newton's equations on the support of W. This is the linear algebra of row scope where lambda is
+// small and the columns' Gram matrices are ill-conditioned, so that gradient steps alone would need thousands
+// of iterations.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -14,21 +14,21 @@
 
 namespace coseg {
 
-/// Where all weights that are positive stay so the objective is smooth: 2 X^T X of each column, 2 lambda
-/// along each row and the curvature of the groups' norms. The system is solved by conjugate gradients,
-/// preconditioned with the Cholesky factors of every column's own part; a row couples its columns the less,
-/// the smaller lambda. Source: inexact Newton (Dembo, Eisenstat, Steihaug 1982).
+/// As long as all positive weights stay positive, the objective is smooth. Its Hessian is 2 X^T X of each
+/// column, 2 lambda along each row, and the curvature of the groups' norms. The system is solved by conjugate
+/// gradients, preconditioned with the Cholesky factors of every column's own part. The smaller lambda is, the
+/// less a row couples its columns. Source: inexact Newton (Dembo, Eisenstat, Steihaug 1982).
 class SupportNewton {
   public:
-    /// `fits` are the columns of this rank, `offset` the place of each column's values; all must outlive
+    /// `fits` are the columns of this rank, `offset` the index of each column's first value. All must outlive
     /// this.
     SupportNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                   const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
                   RowExchange& exchange);
 
     /// Solves (objective's Hessian + `added` times the identity) y = `right_side` on the support of
-    /// `weights` >= 0. Pairs by columns, H values together; `right_side` is not looked at where a weight is
-    /// 0, and y is 0 there. The same bits on any number of ranks. Collective.
+    /// `weights` >= 0. Pairs are ordered by columns, H values together. Where a weight is 0, `right_side` is
+    /// not read and y is 0. The result has the same bits on any number of ranks. Collective.
     const std::vector<double>& solve(const std::vector<double>& weights,
                                      const std::vector<double>& right_side, double added);
 
@@ -59,7 +59,7 @@ class SupportNewton {
     const std::vector<std::size_t>& offset_;
     RowExchange& exchange_;
     std::vector<Block> blocks_;         ///< H a column
-    std::vector<double> inverse_norm_;  ///< of each pair's group; 0 where the group is
+    std::vector<double> inverse_norm_;  ///< of each pair's group; 0 where the group's norm is 0
     std::vector<double> by_row_;
     std::vector<double> row_part_;
     std::vector<double> solution_, residual_, preconditioned_, search_, image_;

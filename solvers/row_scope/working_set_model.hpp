@@ -1,11 +1,10 @@
 #pragma once
-// Row scope on a working set of pairs: the model that the spectral projected gradient moves.
+// Row scope on a working set of pairs: the model on which the spectral projected gradient works.
 //
-// Deviates: from SPG on (6)-(7) with the lambda term in the smooth part, whose Lipschitz constant 2 lambda N
-// makes
-//   steps tiny. Here the smooth part is the fit alone and the lambda term belongs to the prox, which
-//   separates over rows and is solved exactly by their owners (row_prox.hpp). Convergence then does not
-//   depend on lambda.
+// Deviates: in SPG on (6)-(7) the lambda term would be in the smooth part, whose Lipschitz constant 2
+// lambda N makes steps tiny. Here the smooth part is the fit alone. The lambda term belongs to the prox,
+// which separates over rows and is solved exactly by their owners (row_prox.hpp). Convergence then does not
+// depend on lambda.
 
 #include <optional>
 #include <vector>
@@ -30,19 +29,19 @@ struct WorkingSet {
 
 class WorkingSetModel {
   public:
-    /// Starts from the weights in `working`; `prices`, H values for each row that this rank owns, warm-start
-    /// the rows' prox. Both must outlive this. Collective.
+    /// Starts from the weights in `working`. `prices` holds H values for each row that this rank owns, from
+    /// which the prox of the rows starts. Both must outlive this. Collective.
     WorkingSetModel(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
                     const WorkingSet& working, std::vector<double>& prices);
 
     [[nodiscard]] double objective() const noexcept { return current_.objective; }
     TrialPoint propose(double step);
     void accept() { std::swap(current_, trial_); }
-    /// Replaces the current point by its proximal point of the given reach, if that is better. Returns how
-    /// many Newton steps it took; nothing where they did not lead there. Collective.
+    /// Replaces the current point by its proximal point of the given reach, if that is better. Returns the
+    /// number of Newton steps taken, or nothing where they did not lead there. Collective.
     std::optional<int> proximal_step(double reach);
 
-    /// Of this working set's own optimum. Collective.
+    /// A lower bound of the optimum of this working set's own problem. Collective.
     [[nodiscard]] double lower_bound() const;
     /// W_h 1 of all rows, the H values of a row together. Collective.
     [[nodiscard]] std::vector<double> row_sums() const;

@@ -1,5 +1,5 @@
 #pragma once
-// Clusters from a spectral embedding: the discretisation of the normalised cut.
+// Makes clusters of a spectral embedding: the discretisation of the normalised cut.
 
 #include <vector>
 
@@ -7,11 +7,15 @@
 
 namespace coseg {
 
-/// 0 .. clusters - 1 per row of the embedding, from its first `clusters` coordinates; some clusters may stay
-/// empty. Rows are brought to unit length; the start takes `clusters` rows as far apart as possible; then
-/// labels and rotation alternate until the labels stand still. 1 <= clusters <= number of coordinates.
-/// Source: Yu and Shi 2003, "Multiclass Spectral Clustering". Deviates: the first row of the start is that of
-/// the largest degree (ties: the lowest), not a random one.
+/// The cluster of each row of the embedding, 0 .. clusters-1, from its first `clusters` coordinates; some
+/// clusters may stay empty. Rows are scaled to unit length. The start takes `clusters` rows as far apart as
+/// possible. Labels and rotation are then computed in turn until the labels no longer change.
+/// 1 <= clusters <= number of coordinates.
+///
+/// Source: Yu and Shi 2003, "Multiclass Spectral Clustering".
+///
+/// Deviates: the first row of the start is not random. It is the row of the largest degree, and of equal
+/// degrees the lowest.
 std::vector<int> discretize(const SpectralEmbedding& embedding, int clusters);
 
 /// The labels of `discretize` for all `size` patches; -1 for those that the embedding has set aside.

@@ -1,5 +1,6 @@
 #pragma once
-// The leading eigenvectors of a normalised affinity, in which its normalised cuts are found.
+// Computes the leading eigenvectors of a normalised affinity. Its normalised cuts are found in their
+// coordinates.
 
 #include <Eigen/Core>
 #include <vector>
@@ -25,27 +26,31 @@ struct SpectralEmbedding {
     Eigen::MatrixXd coordinates;      ///< rows x eigenvalues; each column of norm sqrt(rows)
 };
 
-/// At most so many patches are solved densely, on every rank alike.
+/// Up to this number of patches the eigenproblem is solved densely, on every rank in the same way.
 inline constexpr int dense_rows = 128;
 
-/// The `count` largest eigenvectors of D^-1/2 S D^-1/2 back-multiplied by D^-1/2, for a cut into
+/// The `count` largest eigenvectors of D^-1/2 S D^-1/2, multiplied by D^-1/2, for a cut into
 /// `parts` <= count; fewer where fewer rows take part. `affinity` is symmetric with entries >= 0.
 ///
-/// Eigenvectors of eigenvalue 1 are known, one per component, and are deflated instead of computed. The
-/// others come from SLEPc's Krylov-Schur method with a seeded start; then solves on the complement of what
-/// was found look for further copies of multiple eigenvalues, which a single Krylov space does not see.
+/// The eigenvectors of eigenvalue 1 are known, one for each component, and are deflated instead of
+/// computed. The others come from SLEPc's Krylov-Schur method with a seeded start. Further solves on the
+/// complement of what was found then look for more copies of multiple eigenvalues, which a single Krylov
+/// space does not contain.
 ///
-/// mesh_balance tau makes it dear to cut whole meshes apart: from the operator tau Q Q^T is subtracted, Q the
-/// meshes' indicators D^1/2 1_m of unit length, on the complement of the eigenvectors of eigenvalue 1. A
-/// vector that is constant on each mesh thus loses tau, one whose mean over each mesh is 0 loses nothing.
-/// `mesh_of`: mesh 0 .. M-1 of each patch; it may be empty where tau is 0.
+/// mesh_balance tau makes it costly to cut whole meshes apart. From the operator tau Q Q^T is subtracted
+/// on the complement of the eigenvectors of eigenvalue 1, where Q holds the indicators D^1/2 1_m of the
+/// meshes, scaled to unit length. A vector that is constant on each mesh thus loses tau, and one whose mean
+/// over each mesh is 0 loses nothing. `mesh_of` is the mesh 0 .. M-1 of each patch; it may be empty where tau
+/// is 0.
 ///
-/// The ranks of `comm` share the products with the affinity, of which each holds its rows; the Krylov method
-/// itself runs on the root. The result is a function of the affinity alone, the same bytes on any number of
-/// ranks. Collective. Throws on all ranks: AgreedError(not_converged) with the residual reached,
-/// AgreedError(input) where no two patches have an affinity or fewer than `parts` patches take part. Source:
-/// Shi and Malik 2000; the code of Cour, Yu and Shi, which the paper used. Deviates: rows set aside,
-/// mesh_balance.
+/// The ranks of `comm` share the products with the affinity, of which each holds its rows. The Krylov
+/// method itself runs on the root. The result is a function of the affinity alone and has the same bytes on
+/// any number of ranks. Collective. Throws on all ranks: AgreedError(not_converged) with the residual
+/// reached, AgreedError(input) where no two patches have an affinity or fewer than `parts` patches take part.
+///
+/// Source: Shi and Malik 2000; the code of Cour, Yu and Shi, which the paper used.
+///
+/// Deviates: rows are set aside (main_components), and mesh_balance.
 SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinity, int parts, int count,
                                      const SpectralOptions& options, const std::vector<int>& mesh_of = {});
 

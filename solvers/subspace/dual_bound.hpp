@@ -22,28 +22,29 @@
 
 namespace coseg {
 
-/// Give the owned columns tile by tile, with every pair that may violate its limit; then finish. `stack` and
-/// `row_sums` must outlive this.
+/// Usage: give the owned columns tile by tile, with every pair that may violate its limit, and then call
+/// finish. `stack` and `row_sums` must outlive this.
 class PaperDualBound {
   public:
     /// `row_sums`: W_h 1, the H values of a row together. All penalties >= 0.
     PaperDualBound(const FeatureStack& stack, double alpha, double beta, double lambda,
                    const std::vector<double>& row_sums);
 
-    /// The columns first .. first + width, a run of whole coefficient tiles, with their z: D x width values,
-    /// which must live until end_tile.
+    /// Begins the columns first .. first + width, a run of whole coefficient tiles, with their z: D x width
+    /// values, which must live until end_tile.
     void begin_tile(int first, int width, const double* reconstruction);
 
-    /// The pair of row i and the tile's column c (counted from its first), i != first + c: `scores` are
-    /// x_hi . u_hj, H values; `rounding` bounds |computed - exact| relative to ||x_hi|| ||u_hj||. Returns
-    /// ||(scores - v - beta)_+||_2, without the allowance for rounding. A pair that is left out must be known
-    /// to satisfy its limit, rounding included.
+    /// Looks at the pair of row i and the tile's column c (counted from its first), i != first + c. `scores`
+    /// are the H values x_hi . u_hj. `rounding` bounds |computed - exact| relative to ||x_hi|| ||u_hj||.
+    /// Returns ||(scores - v - beta)_+||_2, without the allowance for rounding. A pair that is left out must
+    /// be known to satisfy its limit, rounding included.
     double check_pair(int c, int i, const double* scores, double rounding);
 
-    /// A coefficient tile is one addend, so that bits do not depend on the ranks.
+    /// Ends the tiles begun. Each coefficient tile is one addend of the sum, so that bits do not depend on
+    /// the ranks.
     void end_tile();
 
-    /// The better of both bounds. Collective.
+    /// The better one of the two bounds. Collective.
     double finish(const Comm& comm);
 
     /// An upper bound of ||u_hj|| for the tile's column c.

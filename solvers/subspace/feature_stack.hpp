@@ -1,6 +1,5 @@
 #pragma once
-// The H features of every patch stacked into one column each, as the solvers read them, with their norms and
-// sums.
+// Stacks the H features of every patch into one column, as the solvers read them, with their norms and sums.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -19,7 +18,7 @@ struct FeatureStack {
     /// Throws Error(input) where there are more than 2^31 columns.
     explicit FeatureStack(FeatureMatrices given);
 
-    FeatureMatrices matrices;                   ///< what `columns` looks at
+    FeatureMatrices matrices;                   ///< the memory that `columns` refers to
     int features = 0;                           ///< H
     int size = 0;                               ///< N
     int dimension = 0;                          ///< D = sum of d_h
@@ -36,15 +35,15 @@ struct FeatureStack {
     [[nodiscard]] double inner_product_error() const noexcept;
 };
 
-/// The problem's features as they lie in memory.
+/// Stacks the problem's features as they lie in memory.
 FeatureStack stack_features(const SubspaceProblem& problem);
 
-/// Column `order[i]` of the problem becomes column i; a copy of the features unless that changes nothing.
-/// Collective.
+/// Stacks the features so that column `order[i]` of the problem becomes column i. The features are copied
+/// unless the order changes nothing. Collective.
 FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order);
 
-/// The columns in single precision, in the panels of pair_score_kernel.hpp, the last filled up with zeros;
-/// once a node.
+/// The columns in single precision, in the panels of pair_score_kernel.hpp; the last panel is filled up with
+/// zeros. There is one copy on each node.
 class PanelColumns {
   public:
     /// Collective over `comm`, whose ranks all have this stack.
@@ -59,7 +58,7 @@ class PanelColumns {
     NodeSharedArray<float> values_;
 };
 
-/// D x N values in single precision, once a node.
+/// D x N values in single precision, one copy on each node.
 class SingleColumns {
   public:
     /// Collective over `comm`, whose ranks all have this stack.

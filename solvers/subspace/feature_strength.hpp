@@ -1,5 +1,5 @@
 #pragma once
-// How much each feature says about the parts: the figures behind the paper's Figure 4.
+// Measures how much each feature says about the parts: the figures behind the paper's Figure 4.
 
 #include <cstdint>
 #include <vector>
@@ -17,11 +17,12 @@ struct FeatureStrength {
     /// column in the second; sums to 1, or all 0.
     std::vector<std::vector<double>> blocks;
     std::vector<double> inside;  ///< parts: share of the coefficients of a part's columns that stay inside it
-    std::vector<std::int64_t> pairs_by_features;  ///< H + 1: pairs with so many nonzero features; [0] is 0
+    /// H + 1: [k] is the number of pairs with k nonzero features; [0] is 0.
+    std::vector<std::int64_t> pairs_by_features;
 };
 
-/// `part_of_patch`: 0 .. parts - 1 for all patches, on all ranks. Sums are taken in the order of columns: the
-/// same on any number of ranks. Collective. Source: the paper, Figure 4.
+/// `part_of_patch`: 0 .. parts-1 for all patches, on all ranks. Sums are taken in the order of columns, so
+/// that they are the same on any number of ranks. Collective. Source: the paper, Figure 4.
 FeatureStrength feature_strength(const Comm& comm, const SparseCoefficients& coefficients,
                                  const std::vector<int>& part_of_patch, int parts);
 

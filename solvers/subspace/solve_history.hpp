@@ -1,5 +1,5 @@
 #pragma once
-// How a solve came to its gap: a row for each look at all pairs, for reports and charts.
+// The history of a solve for reports and charts: one row for each pass over all pairs.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace coseg {
 
-/// The state of the whole problem after a pass over all pairs; the same on all ranks and on any number of
-/// them.
+/// The state of the whole problem after a pass over all pairs. It is the same on all ranks and on any number
+/// of ranks.
 struct HistoryRow {
     int pass = 0;        ///< from 1
-    int iterations = 0;  ///< so far; where columns are independent: of the column that took most
+    int iterations = 0;  ///< so far; where columns are independent, of the column that took most
     double objective = 0.0;
     double lower_bound = 0.0;        ///< the best so far
     double relative_gap = 0.0;       ///< as SolveResult::relative_gap
-    std::int64_t working_pairs = 0;  ///< in the working set that the pass looked beyond
+    std::int64_t working_pairs = 0;  ///< in the working set at the time of the pass
 
     bool operator==(const HistoryRow&) const = default;
 };
@@ -26,15 +26,15 @@ using SolveHistory = std::vector<HistoryRow>;
 
 inline constexpr std::size_t most_history_rows = 256;
 
-/// Appends a row; a full history drops every second one first, so that the early rows thin out and the last
+/// Appends a row. A full history first drops every second row, so that early rows become sparse and the last
 /// ones stay.
 void append_row(SolveHistory& history, const HistoryRow& row);
 
-/// Rows of several problems side by side: objectives, bounds and pairs added up, iterations and gap the
+/// The common history of several problems. Objectives, bounds and pairs are added; iterations and gap are the
 /// largest. A problem that has ended stays at its last row.
 SolveHistory joined(const std::vector<SolveHistory>& histories);
 
-/// Where a column, or a set of them, stands when it has been looked at once more.
+/// The state of a column, or of a set of columns, after one more pass.
 struct ColumnRound {
     double reached = 0.0;  ///< objective, or decrease of it
     double bound = 0.0;    ///< the best that is possible, in the same terms
@@ -44,11 +44,11 @@ struct ColumnRound {
     bool operator==(const ColumnRound&) const = default;
 };
 
-/// Appends a round; from most_history_rows on the last one is replaced.
+/// Appends a round. From most_history_rows on the last one is replaced.
 void append_round(std::vector<ColumnRound>& rounds, const ColumnRound& round);
 
-/// Round k of all `columns` together: sums, the largest number of iterations. A column that has ended stays
-/// at its last round; one without any counts nothing.
+/// Round k of all `columns` together: sums, and the largest number of iterations. A column that has ended
+/// stays at its last round; one without any round adds nothing.
 std::vector<ColumnRound> joined_rounds(const std::vector<std::vector<ColumnRound>>& columns);
 
 /// The same over the tiles of all ranks, with the same bits on any number of ranks. Collective.

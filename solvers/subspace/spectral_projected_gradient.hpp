@@ -1,13 +1,13 @@
 #pragma once
-// Spectral projected gradient with a prox in place of the projection, written once for all storages of W.
+// Spectral projected gradient with a proximal map (prox) in place of the projection. It is written once for
+// all ways to store W.
 //
-// Source: Birgin, Martinez, Raydan, "Nonmonotone spectral projected gradient methods on convex sets", SIAM J.
-//   Optim. 2000: Barzilai-Borwein step s.s / s.y, acceptance against the largest of the last 10 objectives,
-//   sufficient decrease 1e-4, step kept in [1e-30, 1e30].
-// Deviates: the objective has a part that is not smooth, so its prox replaces the projection and the step
-// itself is
-//   halved where a trial is refused; known as SpaRSA (Wright, Nowak, Figueiredo 2009). s.y needs no second
-//   gradient: the smooth part is quadratic, so it is the curvature along s.
+// Source: Birgin, Martinez, Raydan, "Nonmonotone spectral projected gradient methods on convex sets", SIAM
+// J. Optim. 2000: Barzilai-Borwein step s.s / s.y, acceptance against the largest of the last 10 objectives,
+// sufficient decrease 1e-4, step kept in [1e-30, 1e30].
+// Deviates: the objective has a part that is not smooth, so that its prox replaces the projection, and the
+// step itself is halved where a trial is refused. This is known as SpaRSA (Wright, Nowak, Figueiredo 2009).
+// s.y needs no second gradient: the smooth part is quadratic, so that s.y is the curvature along s.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace coseg {
 
-/// What a trial point costs and how it lies to the current one.
+/// The objective of a trial point, and its position relative to the current point.
 struct TrialPoint {
     double objective = 0.0;  ///< smooth part and penalties; infinite if the trial cannot be used
     double distance2 = 0.0;  ///< s.s, s = trial - current
@@ -34,7 +34,7 @@ concept ProximalModel = requires(T model, const T& fixed, double step) {
     model.accept();
 };
 
-/// All that the iteration knows beside its point: with both it continues to the last bit.
+/// All that the iteration knows beside its point. With both it continues to the last bit.
 struct SpectralState {
     double step = 0.0;
     std::array<double, 10> recent{};  ///< objectives
@@ -64,7 +64,7 @@ class SpectralStep {
 
     [[nodiscard]] bool accepts(const TrialPoint& trial) const noexcept {
         const double reference = *std::max_element(recent_.begin(), recent_.end());
-        // Near the optimum a decrease drowns in the objective's last bits.
+        // Near the optimum a decrease is smaller than the rounding of the objective.
         const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(reference);
         return trial.objective <= reference + rounding - 0.5 * sufficient_decrease * trial.distance2 / step_;
     }
@@ -91,14 +91,14 @@ class SpectralStep {
     std::size_t count_ = 0;
 };
 
-/// What the stopping test sees after each accepted step.
+/// What the stopping test is given after each accepted step.
 struct SpectralProgress {
     int iterations = 0;     ///< accepted steps
     double residual = 0.0;  ///< ||W - prox(W - t G)|| / t at the step just taken
     SpectralState state;    ///< to continue with spectral_projected_gradient(model, state, stop)
 };
 
-/// Continues an iteration whose point the model is at.
+/// Continues an iteration; the model is at its point.
 template <ProximalModel Model, class Stop>
 SpectralProgress spectral_projected_gradient(Model& model, const SpectralState& state, Stop&& stop) {
     SpectralStep rule(state);

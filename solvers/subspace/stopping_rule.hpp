@@ -1,5 +1,6 @@
 #pragma once
-// When to stop, decided alike on all ranks: a duality gap, the prox-gradient residual, or a limit.
+// Decides when to stop, in the same way on all ranks: at a duality gap, a proximal-gradient residual, or a
+// limit.
 
 #include "solvers/subspace/feature_stack.hpp"
 #include "solvers/subspace/solve_result.hpp"
@@ -8,7 +9,8 @@
 
 namespace coseg {
 
-/// Row scope. Remembers the best lower bound; the objective is that of the last point certified.
+/// The rule of row scope. It remembers the best lower bound. The objective is that of the last point
+/// certified.
 class StoppingRule {
   public:
     /// Starts the clock.
@@ -20,15 +22,15 @@ class StoppingRule {
     /// True once the residual is down to rounding, or iterations or time have run out. Collective.
     bool limit_reached(int iterations, double kkt_residual);
 
-    /// Records why there will be no smaller gap.
+    /// Records the reason why the gap will not become smaller.
     void give_up(StopReason reason) { limit_ = reason; }
 
     [[nodiscard]] double relative_gap() const;
     [[nodiscard]] double lower_bound() const noexcept { return lower_bound_; }
     [[nodiscard]] StopReason limit() const noexcept { return limit_; }
 
-    /// What gaps are relative to. An objective that vanishes, as where duplicates explain each other, has no
-    /// relative gap of its own: a millionth of the objective at W = 0 is the least.
+    /// The value that gaps are relative to. An objective that vanishes, as where duplicates explain each
+    /// other, cannot serve; the scale is therefore at least a millionth of the objective at W = 0.
     [[nodiscard]] double scale(double objective) const;
 
     /// Fills in bounds, gap and reason.
@@ -47,12 +49,11 @@ class StoppingRule {
 /// Residuals below this are rounding: the gap cannot be closed any further in double precision.
 inline constexpr double smallest_residual = 1e-14;
 
-/// What residuals are relative to: an upper bound of the norm of the gradient at W = 0 along its largest
-/// entries, one a column and feature.
+/// The value that residuals are relative to: an upper bound of the norm of the gradient at W = 0 along its
+/// largest entries, one for each column and feature.
 double gradient_scale(const FeatureStack& stack);
 
-/// An upper bound of the row sums of any W worth looking at: lambda ||r||^2 is at most the objective at W =
-/// 0.
+/// An upper bound of the row sums of any useful W: lambda ||r||^2 is at most the objective at W = 0.
 double row_sum_scale(const FeatureStack& stack, double lambda);
 
 }  // namespace coseg

@@ -29,9 +29,9 @@ struct SubspaceProblem {
     double beta = 0.1;         ///< of ||W||_{1,1}; >= 0
     double lambda = 1000.0;    ///< of the scope's squared sums; >= 0
     PenaltyScope scope = PenaltyScope::rows;
-    std::vector<int> mesh_of;  ///< N meshes, >= 0; mesh scope only: no pairs inside a mesh
-    /// Mesh scope only: for each mesh, ascending, the meshes in which its patches may have matches (the rows
-    /// of its columns). Empty: all others.
+    std::vector<int> mesh_of;  ///< the mesh of each of N patches; mesh scope only
+    /// Mesh scope only: for each mesh the meshes, ascending, in which its patches may have matches (the rows
+    /// of its columns). Empty means all others.
     std::vector<std::vector<int>> allowed_meshes;
 
     [[nodiscard]] int feature_count() const noexcept { return static_cast<int>(features.size()); }
@@ -39,7 +39,8 @@ struct SubspaceProblem {
     [[nodiscard]] std::int64_t size() const noexcept { return features.columns(); }
 };
 
-/// Pairs (i, j), i != j, that may have a value: all in row scope, those of allowed meshes in mesh scope.
+/// The number of pairs (i, j), i != j, that may have a value: all pairs in row scope, those of allowed meshes
+/// in mesh scope.
 std::int64_t allowed_pair_count(const SubspaceProblem& problem);
 
 /// Throws Error(input), naming feature and column (both counted from 1), where the problem cannot be solved:

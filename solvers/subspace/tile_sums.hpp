@@ -1,5 +1,5 @@
 #pragma once
-// Sums over the rows or columns of this rank with the same bits on any number of ranks.
+// Forms sums over the rows or columns of all ranks that have the same bits on any number of ranks.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace coseg {
 
-/// Calls add(i, sums) for each of `items` rows or columns, the first of which begins a coefficient tile. What
-/// it adds to sums[0] .. sums[count - 1] is added up tile by tile, in order, and each tile is one addend of
-/// the scalars `first`, first + 1, ...: ranks own whole tiles.
+/// Calls add(i, sums) for each of `items` rows or columns, the first of which begins a coefficient tile. The
+/// values that it adds to sums[0] .. sums[count - 1] are added up tile by tile, in order. Each tile is one
+/// addend of the scalars `first`, first + 1, and so on. Bits do not depend on the ranks because ranks own
+/// whole tiles.
 template <std::size_t count, class Add>
 void add_by_tiles(std::int64_t items, std::size_t first, ExactSum& sums, Add&& add) {
     double tile[count] = {};

@@ -1,6 +1,7 @@
 #pragma once
 // Says how a shape of each family is put together. Only shape_families.cpp uses it.
-// || Each recipe draws proportions, pose and parts from `random`. `index` decides what must not be left to
+//
+// Each recipe draws proportions, pose and parts from `random`. `index` decides what must not be left to
 // chance, such as whether there is a handle, so that a small collection has both. Labels are indices into the
 // family's list.
 

@@ -1,6 +1,7 @@
 #pragma once
 // Finds shortest paths in a surface graph, from one source or from sixteen at once.
-// || Both functions give the same bits. Adding a length in floating point is monotone, so that the distances
+//
+// Both functions give the same bits. Adding a length in floating point is monotone, so that the distances
 // are the unique largest solution of d(v) = min over arcs of d(u) + length, whatever the order of the
 // updates.
 

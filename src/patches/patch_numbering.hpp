@@ -1,7 +1,8 @@
 #pragma once
 // Numbers the patches of the whole collection: by mesh in the collection's order, then by over-segmentation,
 // then by patch.
-// || Example: mesh 0 has over-segmentations of 3 and 2 patches, mesh 1 of 4 and 4. The numbers are 0-2, 3-4 |
+//
+// Example: mesh 0 has over-segmentations of 3 and 2 patches, mesh 1 of 4 and 4. The numbers are 0-2, 3-4 |
 // 5-8, 9-12.
 
 #include <cstdint>
