@@ -115,12 +115,11 @@ double subspace_objective(const SubspaceProblem& problem, const std::vector<Eige
 }
 
 std::filesystem::path oracle_folder() {
-    const char* shared = std::getenv("COSEG_SHARED");
-    const std::filesystem::path source =
-        std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-    const std::filesystem::path folder =
-        (shared != nullptr ? std::filesystem::path(shared) : source / ".." / "shared") / "oracle";
-    return std::filesystem::exists(folder) ? folder : std::filesystem::path{};
+    const char* source = std::getenv("COSEG_SOURCE");
+    const std::filesystem::path tests = source != nullptr
+                                            ? std::filesystem::path(source) / "tests"
+                                            : std::filesystem::path(__FILE__).parent_path().parent_path();
+    return tests / "data" / "oracle";
 }
 
 }  // namespace coseg

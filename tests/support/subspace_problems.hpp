@@ -31,8 +31,8 @@ std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficient
 /// The objective of `problem.scope` by its definition, with matrices of N x N.
 double subspace_objective(const SubspaceProblem& problem, const std::vector<Eigen::MatrixXd>& weights);
 
-/// Where the problems with a known optimum are: the environment's COSEG_SHARED or ../shared beside the
-/// source, with "/oracle" appended; empty where there is none.
+/// The folder of the project with problems whose optimum is known: tests/data/oracle, whose README says what
+/// the files hold.
 std::filesystem::path oracle_folder();
 
 }  // namespace coseg

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "io/data_files/problem_file.hpp"
 #include "tests/support/subspace_problems.hpp"
@@ -198,8 +199,7 @@ TEST(SubspaceSolver, SmallPenaltiesAreSolvedToTheLastDigits) {
 INSTANTIATE_TEST_SUITE_P(Solvers, UglyProblem, testing::Values("dense", "working-set"));
 
 TEST(SubspaceSolver, OracleProblems) {
-    const auto folder = oracle_folder();
-    if (folder.empty()) GTEST_SKIP() << "no folder with problems of known optimum; set COSEG_SHARED";
+    const std::filesystem::path folder = oracle_folder();
     for (const char* name : {"problem1.txt", "problem5.txt", "problem6.txt"}) {
         const ProblemFile file = read_problem_file((folder / name).string());
         SubspaceProblem problem;

@@ -11,6 +11,7 @@
 #include "src/base/seeded_random.hpp"
 #include "src/mesh/connected_pieces.hpp"
 #include "src/mesh/dihedral_cost.hpp"
+#include "tests/support/generated_shapes.hpp"
 #include "tests/support/read_off.hpp"
 #include "tests/support/revolution.hpp"
 #include "tests/support/shapes.hpp"
@@ -183,6 +184,22 @@ double majority_bound(const FaceGeometry& geometry, const std::vector<int>& patc
     return agreement(geometry, patch, truth);
 }
 
+/// The majority bound of the mesh's fifty patches.
+double bound_of_fifty_patches(const TriMesh& mesh, const std::string& name, const std::vector<int>& truth) {
+    const Prepared p = prepared(mesh);
+    const std::vector<int> patch = oversegment(p.geometry, p.graph, {}, hash_text(name));
+    expect_valid(patch, p.graph, 50);
+    return majority_bound(p.geometry, patch, truth);
+}
+
+TEST(Oversegmentation, GeneratedShapesAreFiftyPatchesThatFollowTheTruth) {
+    for (const auto& [name, shape] : test::generated_shapes()) {
+        const double found = bound_of_fifty_patches(shape.mesh, name, shape.face_label);
+        EXPECT_GT(found, 0.97) << name;
+        RecordProperty(name, std::to_string(found));
+    }
+}
+
 TEST(Oversegmentation, RealShapesAreFiftyPatchesThatFollowTheTruth) {
     const std::filesystem::path data = test::data_folder();
     if (data.empty()) GTEST_SKIP() << "no labelled shapes: set COSEG_DATA to their folder";
@@ -190,11 +207,8 @@ TEST(Oversegmentation, RealShapesAreFiftyPatchesThatFollowTheTruth) {
         {"psb_airplane", 0.92}, {"psb_plier", 0.93}, {"coseg_chairs", 0.97}, {"humans_adobe", 0.88}};
     for (const auto& [set, bound] : lowest) {
         const std::filesystem::path off = test::off_files(data / set).front();
-        const Prepared p = prepared(test::read_off(off));
         const std::vector<int> truth = test::read_seg(std::filesystem::path(off).replace_extension(".seg"));
-        const std::vector<int> patch = oversegment(p.geometry, p.graph, {}, hash_text(off.stem().string()));
-        expect_valid(patch, p.graph, 50);
-        const double found = majority_bound(p.geometry, patch, truth);
+        const double found = bound_of_fifty_patches(test::read_off(off), off.stem().string(), truth);
         EXPECT_GT(found, bound) << off;
         RecordProperty(set, std::to_string(found));
     }

@@ -9,6 +9,7 @@
 
 #include "src/base/error.hpp"
 #include "tests/support/awkward_shapes.hpp"
+#include "tests/support/generated_shapes.hpp"
 #include "tests/support/read_off.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -172,20 +173,27 @@ TEST(ConformalFactor, CoordinatesThatAreNotNumbersAreRefused) {
     }
 }
 
+void expect_finite_of_area_mean_zero(TriMesh mesh, const std::string& name) {
+    scale_to_unit_area(mesh);
+    const FaceGeometry geometry = face_geometry(mesh);
+    const Eigen::VectorXd factor = conformal_factor(mesh, geometry);
+    EXPECT_TRUE(factor.allFinite()) << name;
+    EXPECT_NEAR(geometry.area.dot(factor), 0.0, 1e-8) << name;
+    EXPECT_LT(factor.cwiseAbs().maxCoeff(), 100.0) << name;
+}
+
+TEST(ConformalFactor, GeneratedMeshesGiveFiniteValuesOfAreaMeanZero) {
+    for (const auto& [name, shape] : test::generated_shapes())
+        expect_finite_of_area_mean_zero(shape.mesh, name);
+}
+
 TEST(ConformalFactor, RealMeshesGiveFiniteValuesOfAreaMeanZero) {
     const auto folder = test::data_folder();
     if (folder.empty()) GTEST_SKIP() << "set COSEG_DATA to the folder with the labelled sets";
     for (const char* set : {"psb_airplane", "coseg_chairs", "humans_adobe"}) {
         const auto files = test::off_files(folder / set);
-        for (std::size_t i = 0; i < files.size(); i += 9) {
-            TriMesh mesh = test::read_off(files[i]);
-            scale_to_unit_area(mesh);
-            const FaceGeometry geometry = face_geometry(mesh);
-            const Eigen::VectorXd factor = conformal_factor(mesh, geometry);
-            EXPECT_TRUE(factor.allFinite()) << files[i];
-            EXPECT_NEAR(geometry.area.dot(factor), 0.0, 1e-8) << files[i];
-            EXPECT_LT(factor.cwiseAbs().maxCoeff(), 100.0) << files[i];
-        }
+        for (std::size_t i = 0; i < files.size(); i += 9)
+            expect_finite_of_area_mean_zero(test::read_off(files[i]), files[i]);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/support/awkward_shapes.hpp"
+#include "tests/support/generated_shapes.hpp"
 #include "tests/support/read_off.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -104,18 +105,25 @@ TEST(GaussianCurvature, AwkwardMeshesGiveFiniteValues) {
     }
 }
 
+void expect_finite_with_a_whole_characteristic(TriMesh mesh, const std::string& name) {
+    scale_to_unit_area(mesh);
+    EXPECT_TRUE(gaussian_curvature(mesh, face_geometry(mesh)).allFinite()) << name;
+    const double characteristic = angle_defects(mesh).sum() / (2 * pi);
+    EXPECT_NEAR(characteristic, std::round(characteristic), 1e-6) << name;
+}
+
+TEST(GaussianCurvature, GeneratedMeshesGiveFiniteValuesAndWholeEulerCharacteristics) {
+    for (const auto& [name, shape] : test::generated_shapes())
+        expect_finite_with_a_whole_characteristic(shape.mesh, name);
+}
+
 TEST(GaussianCurvature, RealMeshesGiveFiniteValuesAndWholeEulerCharacteristics) {
     const auto folder = test::data_folder();
     if (folder.empty()) GTEST_SKIP() << "set COSEG_DATA to the folder with the labelled sets";
     for (const char* set : {"psb_airplane", "coseg_chairs", "humans_adobe"}) {
         const auto files = test::off_files(folder / set);
-        for (std::size_t i = 0; i < files.size(); i += 9) {
-            TriMesh mesh = test::read_off(files[i]);
-            scale_to_unit_area(mesh);
-            EXPECT_TRUE(gaussian_curvature(mesh, face_geometry(mesh)).allFinite()) << files[i];
-            const double characteristic = angle_defects(mesh).sum() / (2 * pi);
-            EXPECT_NEAR(characteristic, std::round(characteristic), 1e-6) << files[i];
-        }
+        for (std::size_t i = 0; i < files.size(); i += 9)
+            expect_finite_with_a_whole_characteristic(test::read_off(files[i]), files[i]);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/support/awkward_shapes.hpp"
+#include "tests/support/generated_shapes.hpp"
 #include "tests/support/read_off.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -109,19 +110,25 @@ TEST(MinimumCurvature, AwkwardMeshesGiveValuesInRange) {
     }
 }
 
+void expect_values_from_0_to_1(TriMesh mesh, const std::string& name) {
+    scale_to_unit_area(mesh);
+    const Eigen::VectorXd concavity = minimum_curvature(mesh, face_geometry(mesh));
+    EXPECT_TRUE(concavity.allFinite()) << name;
+    EXPECT_GE(concavity.minCoeff(), 0.0) << name;
+    EXPECT_EQ(concavity.maxCoeff(), 1.0) << name;
+}
+
+TEST(MinimumCurvature, GeneratedMeshesGiveValuesInRange) {
+    for (const auto& [name, shape] : test::generated_shapes()) expect_values_from_0_to_1(shape.mesh, name);
+}
+
 TEST(MinimumCurvature, RealMeshesGiveValuesInRange) {
     const auto folder = test::data_folder();
     if (folder.empty()) GTEST_SKIP() << "set COSEG_DATA to the folder with the labelled sets";
     for (const char* set : {"psb_airplane", "coseg_chairs", "humans_adobe"}) {
         const auto files = test::off_files(folder / set);
-        for (std::size_t i = 0; i < files.size(); i += 9) {
-            TriMesh mesh = test::read_off(files[i]);
-            scale_to_unit_area(mesh);
-            const Eigen::VectorXd concavity = minimum_curvature(mesh, face_geometry(mesh));
-            EXPECT_TRUE(concavity.allFinite()) << files[i];
-            EXPECT_GE(concavity.minCoeff(), 0.0) << files[i];
-            EXPECT_EQ(concavity.maxCoeff(), 1.0) << files[i];
-        }
+        for (std::size_t i = 0; i < files.size(); i += 9)
+            expect_values_from_0_to_1(test::read_off(files[i]), files[i]);
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "src/descriptors/inside_rays.hpp"
 #include "tests/support/awkward_shapes.hpp"
+#include "tests/support/generated_shapes.hpp"
 #include "tests/support/read_off.hpp"
 #include "tests/support/shapes.hpp"
 
@@ -259,22 +260,28 @@ TEST(ShapeDiameter, AwkwardMeshesGiveValuesInRange) {
     }
 }
 
+/// The mesh is closed, so that hardly a ray may leave it.
+void expect_closed_mesh_in_range(TriMesh mesh, const std::string& name) {
+    scale_to_unit_area(mesh);
+    const Eigen::VectorXd thickness = raw(mesh);
+    EXPECT_TRUE(thickness.allFinite()) << name;
+    EXPECT_LT((thickness.array() == 0.0).count(), mesh.face_count() / 100) << name;
+    const Eigen::VectorXd found = diameter(mesh);
+    EXPECT_EQ(found.minCoeff(), 0.0) << name;
+    EXPECT_EQ(found.maxCoeff(), 1.0) << name;
+}
+
+TEST(ShapeDiameter, GeneratedMeshesGiveValuesInRange) {
+    for (const auto& [name, shape] : test::generated_shapes()) expect_closed_mesh_in_range(shape.mesh, name);
+}
+
 TEST(ShapeDiameter, RealMeshesGiveValuesInRange) {
     const auto folder = test::data_folder();
     if (folder.empty()) GTEST_SKIP() << "set COSEG_DATA to the folder with the labelled sets";
     for (const char* set : {"psb_airplane", "coseg_chairs", "humans_adobe"}) {
         const auto files = test::off_files(folder / set);
-        for (std::size_t i = 0; i < files.size(); i += 20) {
-            TriMesh mesh = test::read_off(files[i]);
-            scale_to_unit_area(mesh);
-            const Eigen::VectorXd thickness = raw(mesh);
-            EXPECT_TRUE(thickness.allFinite()) << files[i];
-            EXPECT_LT((thickness.array() == 0.0).count(), mesh.face_count() / 100)
-                << files[i];  // they are closed
-            const Eigen::VectorXd found = diameter(mesh);
-            EXPECT_EQ(found.minCoeff(), 0.0) << files[i];
-            EXPECT_EQ(found.maxCoeff(), 1.0) << files[i];
-        }
+        for (std::size_t i = 0; i < files.size(); i += 20)
+            expect_closed_mesh_in_range(test::read_off(files[i]), files[i]);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "src/base/error.hpp"
 #include "src/base/seeded_random.hpp"
+#include "src/families/shape_families.hpp"
 #include "src/mesh/closest_point.hpp"
 #include "tests/support/read_off.hpp"
 #include "tests/support/shapes.hpp"
@@ -124,10 +125,7 @@ TEST(IsotropicRemesh, RefusesNonManifoldInputAndBadLengths) {
     EXPECT_THROW(isotropic_remesh(test::sphere(1), {.edge_length = std::nan("")}), Error);
 }
 
-TEST(IsotropicRemesh, RealMeshesKeepTheirVolumeAndTopology) {
-    const std::filesystem::path path = test::data_folder() / "psb_plier" / "201.off";
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here; set COSEG_DATA";
-    const TriMesh input = test::read_off(path);
+void expect_volume_and_topology_kept(const TriMesh& input) {
     const TriMesh mesh =
         isotropic_remesh(input, {.edge_length = edge_length_for(area(input), 6000), .smallest_share = 0.6});
     EXPECT_TRUE(test::is_closed_and_oriented(mesh));
@@ -136,6 +134,16 @@ TEST(IsotropicRemesh, RealMeshesKeepTheirVolumeAndTopology) {
     EXPECT_NEAR(test::volume(mesh), test::volume(input), 0.01 * test::volume(input));
     const std::vector<double> angles = test::smallest_angles(mesh);
     EXPECT_GT(angles[angles.size() / 20], 25.0);
+}
+
+TEST(IsotropicRemesh, GeneratedMeshesKeepTheirVolumeAndTopology) {
+    expect_volume_and_topology_kept(generate_shape("pliers", 1, 0, 6000).mesh);
+}
+
+TEST(IsotropicRemesh, RealMeshesKeepTheirVolumeAndTopology) {
+    const std::filesystem::path path = test::data_folder() / "psb_plier" / "201.off";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here; set COSEG_DATA";
+    expect_volume_and_topology_kept(test::read_off(path));
 }
 
 TEST(ClosestPoint, AgreesWithAllFacesTried) {

@@ -15,6 +15,7 @@
 #include "src/mesh/polygon_triangulation.hpp"
 #include "src/remesh/midpoint_refinement.hpp"
 #include "tests/support/errors.hpp"
+#include "tests/support/generated_shapes.hpp"
 #include "tests/support/manifold.hpp"
 #include "tests/support/real_meshes.hpp"
 #include "tests/support/shapes.hpp"
@@ -422,19 +423,23 @@ TEST(MeshRepair, RefusesWhatHasNoArea) {
     EXPECT_NE(test::error_of([&] { repair(nan, "mesh"); }).sentence.find("vertex 2"), std::string::npos);
 }
 
+void expect_stays_as_it_is(const PolygonMesh& input, const std::string& name) {
+    const RepairedMesh repaired = repair(input, name);
+    const Eigen::Matrix3Xi& faces = repaired.mesh.faces;
+    EXPECT_EQ(std::vector<int>(faces.data(), faces.data() + faces.size()), input.corners) << name;
+    EXPECT_EQ(repaired.mesh.vertex_count(), input.vertex_count()) << name;
+    EXPECT_TRUE(repaired.warnings.empty()) << repaired.warnings[0];
+}
+
+TEST(MeshRepair, GeneratedMeshesStayAsTheyAre) {
+    for (const auto& [name, shape] : test::generated_shapes())
+        expect_stays_as_it_is(as_polygons(shape.mesh), name);
+}
+
 TEST(MeshRepair, RealMeshesStayAsTheyAre) {
     const std::vector<std::string> meshes = test::real_meshes();
     if (meshes.empty()) GTEST_SKIP() << "no real meshes; set COSEG_DATA";
-    for (std::size_t i = 0; i < meshes.size(); i += 9) {
-        const PolygonMesh input = read_mesh(meshes[i]);
-        const RepairedMesh repaired = repair(input, meshes[i]);
-        EXPECT_EQ(std::vector<int>(repaired.mesh.faces.data(),
-                                   repaired.mesh.faces.data() + repaired.mesh.faces.size()),
-                  input.corners)
-            << meshes[i];
-        EXPECT_EQ(repaired.mesh.vertex_count(), input.vertex_count()) << meshes[i];
-        EXPECT_TRUE(repaired.warnings.empty()) << repaired.warnings[0];
-    }
+    for (std::size_t i = 0; i < meshes.size(); i += 9) expect_stays_as_it_is(read_mesh(meshes[i]), meshes[i]);
 }
 
 TEST(FaceMap, LargestAreaWinsTiesGoToTheLowestLabel) {
