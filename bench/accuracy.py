@@ -31,6 +31,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 
 PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -298,8 +299,9 @@ def leave_one_out(figures, sets, presets, seeds):
     figure = statistics.fmean(means[chosen[name], name] for name in sets)
     picks = ", ".join(f"`{preset}` {sum(1 for name in sets if chosen[name] == preset)} times"
                       for preset in presets if preset in chosen.values())
-    return (f"{len(presets)} presets are compared here. If for each set the preset is taken that is best on the mean of the "
-            f"other sets ({picks}), the mean is {figure:.1f}.\n")
+    return "\n" + paragraph(
+        f"{len(presets)} presets are compared here. If for each set the preset is taken that is best on the mean of the other "
+        f"sets ({picks}), the mean is {figure:.1f}.")
 
 
 def annotator_table(figures, sets, presets, seeds):
@@ -317,6 +319,10 @@ def annotator_table(figures, sets, presets, seeds):
     return markdown(rows)
 
 
+def paragraph(text):
+    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
 def document(args, sets, figures):
     seeds = ", ".join(str(seed) for seed in args.seeds)
     command = "bench/accuracy.py" + (" --presets " + shlex.join(args.presets) if args.presets != ["default", "paper"] else "")
@@ -324,22 +330,26 @@ def document(args, sets, figures):
         command += " --generated " + shlex.join(args.generated)
     if args.turned:
         command += " --turned"
-    text = ("# Accuracy\n\n"
-            f"Written by `{command}`: seeds {seeds}, {args.ranks} ranks, one set of parameters a preset. One-to-one accuracy by "
-            "area in percent, mean over the shapes of a set, ± sample deviation over seeds. \"One label\" is what a single part "
-            "for everything would score. A difference below the deviation is not a result.\n\n")
+    text = "# Accuracy\n\n" + paragraph(
+        f"This page is written by `{command}`, with seeds {seeds} and {args.ranks} ranks. Each preset is one set of parameters. "
+        "The first table has the one-to-one accuracy by area in percent: the mean over the shapes of a set, ± the sample "
+        "deviation over seeds. \"One label\" is what a single part for everything would score. A difference below the "
+        "deviation is not a result.") + "\n"
     labelled = [name for name in sets if "truth" in sets[name]]
     if labelled:
-        text += accuracy_table(figures, labelled, args.presets, args.seeds) + "\n"
+        text += accuracy_table(figures, labelled, args.presets, args.seeds)
         text += leave_one_out(figures, labelled, args.presets, args.seeds)
         for preset in args.presets:
-            text += (f"\n## `{preset}`\n\n\"Patch bound\": every patch of the first over-segmentation takes its majority label. "
-                     "\"Least shape\": the shape with the lowest mean over seeds.\n\n")
+            text += f"\n## `{preset}`\n\n" + paragraph(
+                "\"Patch bound\" is the accuracy if every patch of the first over-segmentation took its majority label. \"Least "
+                "shape\" is the accuracy of the shape with the lowest mean over seeds.") + "\n"
             text += detail_table(figures, labelled, preset, args.seeds)
     annotated = [name for name in sets if "annotators" in sets[name]]
     if annotated:
-        text += ("Measures of the Princeton Segmentation Benchmark against all annotators; all are errors. Parts are taken apart "
-                 "into connected pieces.\n\n" + annotator_table(figures, annotated, args.presets, args.seeds))
+        text += "\n" if labelled else ""
+        text += paragraph("These are the measures of the Princeton Segmentation Benchmark against all annotators; all are errors. "
+                          "Parts are split into connected pieces.")
+        text += "\n" + annotator_table(figures, annotated, args.presets, args.seeds)
     return text
 
 

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Checks what makes comments and documents hard to read: lines that are too long, and comments torn over two lines.
+
+usage: lint_words.py SOURCE_DIR      prints each violation as FILE:LINE: sentence; exit code 1 if there is any
+       lint_words.py --self-test     shows on a made-up tree that every rule can fail, and that a clean one passes
+"""
+import os
+import re
+import sys
+import tempfile
+
+CODE_FOLDERS = ("src", "io", "solvers", "mpi_drivers", "tests", "bench", "examples")
+LONGEST_COMMENT = 110
+LONGEST_DOCUMENT_LINE = 200
+# A row of a table cannot be wrapped; what needs more room than this belongs into the text below the table.
+LONGEST_TABLE_ROW = 400
+COMMENT = re.compile(r"//.*$")
+STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
+
+
+def comment_column(line):
+    """Where a comment begins, or -1. What stands in a string is no comment."""
+    bare = STRING.sub(lambda text: "_" * len(text.group(0)), line)
+    found = COMMENT.search(bare)
+    return found.start() if found else -1
+
+
+def violations_in_code(path, lines):
+    column_before, trailing_before = -1, False
+    for number, line in enumerate(lines, 1):
+        column = comment_column(line)
+        alone = column >= 0 and not line[:column].strip()
+        if column >= 0 and len(line) > LONGEST_COMMENT:
+            yield f"{path}:{number}: a comment of {len(line)} columns, {LONGEST_COMMENT} at most: wrap it"
+        if alone and trailing_before and column == column_before:
+            yield f"{path}:{number}: a trailing comment goes on in this line: put it above what it explains"
+        elif alone and line[column:].startswith("///<"):
+            yield f"{path}:{number}: nothing stands before this trailing comment: put it above what it explains"
+        column_before, trailing_before = column, column >= 0 and not alone
+
+
+def violations_in_document(path, lines):
+    for number, line in enumerate(lines, 1):
+        if line.startswith("|"):
+            if len(line) > LONGEST_TABLE_ROW:
+                yield (f"{path}:{number}: a row of {len(line)} characters, {LONGEST_TABLE_ROW} at most: "
+                       "say the rest below the table")
+        elif len(line) > LONGEST_DOCUMENT_LINE:
+            yield f"{path}:{number}: a line of {len(line)} characters, {LONGEST_DOCUMENT_LINE} at most: wrap it"
+
+
+def files_below(folder, endings):
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith((".", "build")))
+        for name in sorted(names):
+            if name.endswith(endings):
+                yield os.path.join(place, name)
+
+
+def lines_of(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read().splitlines()
+
+
+def violations(root):
+    for folder in CODE_FOLDERS:
+        for path in files_below(os.path.join(root, folder), (".cpp", ".hpp")):
+            yield from violations_in_code(os.path.relpath(path, root), lines_of(path))
+    for path in files_below(root, (".md",)):
+        yield from violations_in_document(os.path.relpath(path, root), lines_of(path))
+
+
+LONG_WORDS = "word " * 100
+CLEAN_TREE = {
+    "src/mesh/a.hpp": "/// The rank's area, in square units.\ndouble area;\nint faces;  ///< at least 1\n// Next.\nint x;  // one\n"
+                      "int y;  // two\n    // a comment of its own, elsewhere\n" f'const char* s = "// {LONG_WORDS}";\n',
+    "README.md": f"# Title\n\n{LONG_WORDS[:LONGEST_DOCUMENT_LINE]}\n| {LONG_WORDS[:300]} |\n",
+    "docs/b.md": "text\n",
+}
+# file -> a text that breaks exactly one rule, and a piece of the sentence that must come out.
+BROKEN_FILES = (
+    ("src/mesh/x.hpp", f"/// {LONG_WORDS[:LONGEST_COMMENT]}\n", "wrap it"),
+    ("tests/unit/x.cpp", f"int f();  // {LONG_WORDS[:LONGEST_COMMENT]}\n", "wrap it"),
+    ("src/mesh/x.hpp", "int f;  ///< a long\n        ///< story\n", "goes on"),
+    ("src/mesh/x.cpp", "int f;  // a long\n        // story\n", "goes on"),
+    ("io/files/x.hpp", "int f;\n    ///< a story\n", "nothing stands before"),
+    ("docs/x.md", LONG_WORDS + "\n", "wrap it"),
+    ("CHANGELOG.md", f"| {LONG_WORDS} |\n", "below the table"),
+)
+
+
+def found_in(tree):
+    with tempfile.TemporaryDirectory() as root:
+        for path, text in tree.items():
+            os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
+            with open(os.path.join(root, path), "w", encoding="utf-8") as file:
+                file.write(text)
+        return list(violations(root))
+
+
+def self_test():
+    wrong = [f"a clean tree is refused: {v}" for v in found_in(CLEAN_TREE)]
+    for path, text, sentence in BROKEN_FILES:
+        found = found_in({**CLEAN_TREE, path: text})
+        if len(found) != 1 or not found[0].startswith(path + ":") or sentence not in found[0]:
+            wrong.append(f"{path} with {text!r} must give one '{sentence}', gave {found}")
+    return wrong
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    found_now = self_test() if sys.argv[1] == "--self-test" else list(violations(sys.argv[1]))
+    print("\n".join(found_now) if found_now else "words: nothing found")
+    sys.exit(1 if found_now else 0)
