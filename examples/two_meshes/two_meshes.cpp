@@ -1,4 +1,5 @@
-// Reads two meshes, prints the mean shape diameter of each, and cuts both into the same two parts.
+// Reads two meshes, prints the mean shape diameter of each, and cuts both into the same two parts. The labels
+// are written to two_meshes_result/labels. After `cmake --install` of coseg, build and run this example with:
 //     cmake -S . -B build && cmake --build build && build/two_meshes A.off B.off
 #include <mpi.h>
 
@@ -15,8 +16,10 @@ int main(int argc, char** argv) {
     if (argc != 3) return 2;
     MPI_Init(&argc, &argv);
     {
+        // A Comm frees its communicator, so that it has to go out of scope before MPI_Finalize.
         const coseg::Comm world(MPI_COMM_WORLD);
         for (const char* path : {argv[1], argv[2]}) {
+            // A file may hold polygons, seams or degenerate faces; repair makes a clean triangle mesh of them.
             const coseg::TriMesh mesh = coseg::repair(coseg::read_mesh(path), path).mesh;
             const coseg::FaceGeometry geometry = coseg::face_geometry(mesh);
             const Eigen::VectorXd thickness =
@@ -28,7 +31,7 @@ int main(int argc, char** argv) {
         options.parts = 2;
         options.out = "two_meshes_result";
         options.force = true;
-        options.html = false;  // the page is made from a whole run's options
+        options.html = false;  // report.html lists options of a command line, and there is none
         coseg::co_segment(world, options, {}, {});
     }
     MPI_Finalize();

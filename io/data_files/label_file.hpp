@@ -6,12 +6,12 @@
 
 namespace coseg {
 
-/// Reads a label file; blank lines are passed over. Labels may be any int.
-/// Throws Error(input) naming path and line if a line is not one integer, and path, last line and both counts
-/// if expected_count >= 0 and the file has another number of labels.
+/// Reads a label file; blank lines are skipped. Labels may be any int. Throws Error(input) naming path and
+/// line if a line is not one integer. If expected_count >= 0 and the file has another number of labels, the
+/// error names path, last line and both counts.
 std::vector<int> read_labels(const std::string& path, int expected_count = -1);
 
-/// Writes whole or not at all (atomic_file.hpp); Error(output) as there.
+/// Writes the file whole or not at all. Throws Error(output) as atomic_file.hpp does.
 void write_labels(const std::string& path, const std::vector<int>& labels);
 
 }  // namespace coseg

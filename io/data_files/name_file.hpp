@@ -1,17 +1,19 @@
 #pragma once
-// Names of labels, labels.txt: a name a line, or a number and its name as `coseg generate` writes them.
+// Reads names of labels (labels.txt): a name a line, or a number and its name as `coseg generate` writes
+// them.
 
 #include <map>
 #include <string>
 
 namespace coseg {
 
-/// Name of each label; labels without a name are not in it.
+/// The name of each label that has one.
 using LabelNames = std::map<int, std::string>;
 
-/// Where every line begins with a number of 0 and above, and a name follows, that is the label; else the lines are labels
-/// 0, 1, ... in their order. Blank lines are passed over, white space around a name is not part of it.
-/// Throws Error(input) naming the path if it cannot be read or has no name, and the line if a label is named twice.
+/// If every line begins with a number of at least 0, followed by a name, the number is the label. Otherwise
+/// the lines are the labels 0, 1, ... in their order. Blank lines are skipped, and white space around a name
+/// is not part of it. Throws Error(input) naming the path if it cannot be read or has no name, and the line
+/// if a label is named twice.
 LabelNames read_names(const std::string& path);
 
 }  // namespace coseg

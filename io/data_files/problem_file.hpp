@@ -21,8 +21,9 @@ struct ProblemFile {
     double known_lower = 0.0;
 };
 
-/// Serial. Throws Error(input), naming file and line, where the file cannot be opened, ends early, goes on
-/// too long, or holds something other than finite numbers; nothing is allocated that the file could not fill.
+/// Reads a problem. Serial. Throws Error(input), naming file and line, where the file cannot be opened, ends
+/// early, goes on too long, or holds something other than finite numbers. No memory is allocated that the
+/// file could not fill.
 ProblemFile read_problem_file(const std::string& path);
 
 }  // namespace coseg

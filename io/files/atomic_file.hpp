@@ -1,5 +1,5 @@
 #pragma once
-// Files that are there whole or not at all.
+// Writes files that are there whole or not at all.
 
 #include <fstream>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace coseg {
 
-/// Writes under a temporary name in the same folder; commit() gives the file its name, replacing an older
-/// one. Without commit (an exception on the way) the temporary is removed and an older file stays as it was.
+/// Writes under a temporary name in the same folder. commit() gives the file its name and replaces an older
+/// one. Without commit (after an exception) the temporary file is removed, and an older file stays as it was.
 class AtomicFile {
   public:
     /// Throws Error(output) with path and cause if the temporary cannot be created.
@@ -31,7 +31,7 @@ class AtomicFile {
     bool is_committed_ = false;
 };
 
-/// The whole content at once. Throws as AtomicFile does.
+/// Writes the whole content at once. Throws as AtomicFile does.
 void write_file(const std::string& path, std::string_view content);
 
 }  // namespace coseg

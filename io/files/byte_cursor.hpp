@@ -1,5 +1,5 @@
 #pragma once
-// Numbers out of binary data, never beyond its end.
+// Reads numbers out of binary data, and never beyond its end.
 
 #include <bit>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// A 128-bit hash of bytes (XXH3): what names the files of a state folder and what damage is found by.
+// A 128-bit hash of bytes (XXH3). It names the files of a state folder, and it detects damage.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace coseg {
 
-/// Not for secrets: it finds accidents, not attacks.
+/// It is not for secrets: it finds accidents, not attacks.
 struct ContentHash {
     std::uint64_t high = 0;
     std::uint64_t low = 0;
@@ -24,7 +24,8 @@ struct ContentHash {
 
 ContentHash hash_bytes(std::string_view bytes);
 
-/// A hash of several values, each told apart from its neighbours by its size.
+/// A hash of several values. The size of each text and array is hashed too, so that neighbours cannot be
+/// confused.
 class ContentHasher {
   public:
     ContentHasher();
@@ -32,7 +33,7 @@ class ContentHasher {
     ContentHasher(const ContentHasher&) = delete;
     ContentHasher& operator=(const ContentHasher&) = delete;
 
-    /// The bytes alone: pieces in a row give the hash of the whole.
+    /// Adds the bytes alone, without their number: pieces in a row give the hash of the whole.
     void add_bytes(const void* bytes, std::size_t count);
     void add(std::string_view text);
     template <class T>

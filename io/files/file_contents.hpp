@@ -1,5 +1,5 @@
 #pragma once
-// A whole file in memory.
+// Reads a whole file into memory.
 
 #include <string>
 

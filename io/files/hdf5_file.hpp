@@ -1,5 +1,6 @@
 #pragma once
-// HDF5 files: ours, which are there whole or not at all and carry a checksum of every byte, and those of others.
+// Reads and writes HDF5 files. Those of coseg are there whole or not at all and carry a checksum of every
+// byte; those of others can be read as well.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -10,26 +11,28 @@
 
 namespace coseg {
 
-/// Names are paths inside the file ("patches/0"); groups on the way are made as needed. Shapes are in C order, as
-/// h5dump and h5py show them: a column-major `rows x cols` matrix of ours has the shape {cols, rows}.
+/// Names are paths inside the file ("patches/0"). Groups on the way are made as needed. Shapes are in C
+/// order, as h5dump and h5py show them: a column-major `rows x cols` matrix of ours has the shape {cols,
+/// rows}.
 using Hdf5Shape = std::vector<std::uint64_t>;
 
-/// The kinds of values that files hold: float, double, std::int8_t, std::int32_t, std::int64_t, std::uint64_t.
+/// Writes one file. The values are of the types float, double, std::int8_t, std::int32_t, std::int64_t,
+/// std::uint64_t.
 ///
-/// A file in the making, in memory until commit() writes it under a temporary name and renames it. The first 512
-/// bytes (HDF5's user block, which h5dump and h5py pass over) hold one line of text: length and XXH3 checksum of
-/// all bytes after them. Root attributes: `format`, `format_version`, `coseg_version`. Not collective; one rank writes
-/// a file.
+/// The file is kept in memory until commit() writes it under a temporary name and renames it. The first 512
+/// bytes (HDF5's user block, which h5dump and h5py skip) hold one line of text: length and XXH3 checksum of
+/// all bytes after them. Root attributes: `format`, `format_version`, `coseg_version`. Not collective; one
+/// rank writes a file.
 class Hdf5Writer {
   public:
-    /// format: what the file holds, e.g. "coseg mesh description"; version: of that layout.
+    /// format says what the file holds, for example "coseg mesh description". version is that of this layout.
     Hdf5Writer(std::string path, const std::string& format, int version);
     ~Hdf5Writer();
     Hdf5Writer(const Hdf5Writer&) = delete;
     Hdf5Writer& operator=(const Hdf5Writer&) = delete;
 
-    /// The product of the shape must be the number of values; an empty shape stands for {values.size()}.
-    /// compressed: shuffled and deflated; worth it for large data with many equal values.
+    /// The product of the shape must be the number of values; an empty shape means {values.size()}. With
+    /// `compressed` the data are shuffled and deflated, which pays for large data with many equal values.
     template <class T>
     void write(const std::string& name, std::span<const T> values, Hdf5Shape shape = {},
                bool compressed = false);
@@ -40,7 +43,7 @@ class Hdf5Writer {
     }
     /// Shape {cols, rows}.
     void write_matrix(const std::string& name, const Eigen::Ref<const Eigen::MatrixXd>& matrix);
-    /// UTF-8 of any length.
+    /// Writes UTF-8 texts of any length.
     void write_texts(const std::string& name, const std::vector<std::string>& texts);
 
     /// Attributes of the root.
@@ -48,11 +51,12 @@ class Hdf5Writer {
     void attribute(const std::string& name, double value);
     void attribute(const std::string& name, const std::string& value);
 
-    /// A line for listings, which read_summary() finds without opening the file: the second of the user block.
+    /// Sets a line for listings, the second line of the user block. read_summary() finds it without opening
+    /// the file.
     void summary(const std::string& line);
 
-    /// Throws Error(output) with path and cause (a full disk, a folder that cannot be written); an older file of that
-    /// name then stays as it was.
+    /// Writes the file. Throws Error(output) with path and cause (a full disk, a folder that cannot be
+    /// written); an older file of that name then stays as it was.
     void commit();
 
   private:
@@ -62,7 +66,7 @@ class Hdf5Writer {
     std::unique_ptr<Handles> handles_;
 };
 
-/// What is asked of a file before its content is looked at.
+/// What a file must satisfy before its content is read.
 enum class Hdf5Origin {
     ours,     ///< length and checksum must agree
     foreign,  ///< any HDF5 file; checked like ours if it has our first line
@@ -71,10 +75,10 @@ enum class Hdf5Origin {
 /// A file to read. Every failure is an Error(input) whose sentence names the file and the dataset.
 class Hdf5Reader {
   public:
-    /// Throws if the file cannot be read, is no HDF5 file, is damaged (length, checksum), or, for `ours`, holds another
-    /// format or version.
+    /// Opens a file of ours. Throws if it cannot be read, is no HDF5 file, is damaged (length, checksum), or
+    /// holds another format or version.
     Hdf5Reader(std::string path, const std::string& format, int version);
-    /// format and version are for the caller to check.
+    /// Opens a file; the caller checks format and version.
     Hdf5Reader(std::string path, Hdf5Origin origin);
     ~Hdf5Reader();
     Hdf5Reader(const Hdf5Reader&) = delete;
@@ -88,7 +92,7 @@ class Hdf5Reader {
     /// All values of a dataset, converted to T where the file holds another kind of number.
     template <class T>
     [[nodiscard]] std::vector<T> read(const std::string& name) const;
-    /// A dataset of shape {cols, rows} as rows x cols.
+    /// A dataset of shape {cols, rows} as a matrix of rows x cols.
     [[nodiscard]] Eigen::MatrixXd read_matrix(const std::string& name) const;
     [[nodiscard]] std::vector<std::string> read_texts(const std::string& name) const;
 
@@ -108,7 +112,8 @@ class Hdf5Reader {
 /// The summary of one of our files, "" if it has none or cannot be read.
 std::string read_summary(const std::string& path);
 
-/// Reads every byte of one of our files and compares length and checksum. Throws Error(input) saying what is wrong.
+/// Reads every byte of one of our files and compares length and checksum. Throws Error(input) saying what is
+/// wrong.
 void verify_checksum(const std::string& path);
 
 }  // namespace coseg

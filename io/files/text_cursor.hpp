@@ -10,7 +10,7 @@ namespace coseg {
 /// end. Works on memory that the caller keeps.
 class TextCursor {
   public:
-    /// comment = 0: the text has no comments. A byte order mark at the start is passed over.
+    /// With comment = 0 the text has no comments. A byte order mark at the start is skipped.
     TextCursor(std::string_view text, std::string path, char comment);
 
     /// Goes to the next line that has a word; false at the end of the text.
@@ -50,7 +50,7 @@ class TextCursor {
 bool parse_real(std::string_view word, double& value);
 bool parse_integer(std::string_view word, long long& value);
 
-/// The word in quotes, cut short and without unprintable bytes, for messages.
+/// The word in quotes for messages, shortened and without unprintable bytes.
 std::string quoted(std::string_view word);
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// What a finished run left in its folder, read back.
+// Reads back what a finished run left in its folder.
 
 #include <cstdint>
 #include <string>
@@ -18,13 +18,14 @@ struct FinishedRun {
     int parts = 0;
     std::uint64_t seed = 1;
     std::string remesh = "auto";
-    int patches = 50;  ///< options of the run on which the descriptors depend
+    int patches = 50;  ///< like the next one, an option on which the descriptors depend
     int geodesic_samples = 300;
     std::vector<double> part_area;  ///< K, mean over the shapes
     std::vector<FinishedShape> shapes;
 };
 
-/// Reads DIR/report.json. Throws Error(input) if the folder holds no report, or one that is none of ours.
+/// Reads DIR/report.json. Throws Error(input) if the folder holds no report, or one that coseg has not
+/// written.
 FinishedRun read_finished_run(const std::string& folder);
 
 }  // namespace coseg

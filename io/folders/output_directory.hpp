@@ -1,5 +1,5 @@
 #pragma once
-// The folder of results: there whole, or not at all.
+// The folder of results, which is there whole or not at all.
 
 #include <filesystem>
 #include <mutex>
@@ -8,10 +8,10 @@
 
 namespace coseg {
 
-/// A run's results are written into a folder beside the wanted one, DIR.partial-HOST-PID, which takes the name
-/// DIR in commit(); if DIR exists, into DIR/.partial-HOST-PID, whose content commit() moves up. Without commit
-/// the partial folder is removed, and nothing is left behind; what a process left that was killed is removed by
-/// the next one on its machine that writes to DIR.
+/// A run's results are written into a folder beside the wanted one, DIR.partial-HOST-PID, which takes the
+/// name DIR in commit(); if DIR exists, into DIR/.partial-HOST-PID, whose content commit() moves up. Without
+/// commit the partial folder is removed, and nothing is left behind; what a process left that was killed is
+/// removed by the next one on its machine that writes to DIR.
 ///
 /// One rank creates and commits; the others write below the path that it hands them (staging()), all into a
 /// file system that every rank sees.
@@ -35,11 +35,10 @@ class OutputDirectory {
     /// DIR as an absolute path.
     [[nodiscard]] const std::string& path() const { return path_; }
 
-    /// Gives the results their name. In a folder that is not empty (force): files of the same name are
-    /// replaced, and label and PLY files of an earlier run (labels/*.seg, patches/*.seg, ply/*.ply) and pictures
-    /// (contact_sheet*, sheets/*.png, report.html) that this
-    /// run did not write are removed; everything else stays. Throws Error(output); without force an existing
-    /// DIR is then untouched.
+    /// Gives the results their name. In a folder that is not empty (force), files of the same name are
+    /// replaced. Files of an earlier run that this run did not write are removed: labels and PLY files
+    /// (labels/*.seg, patches/*.seg, ply/*.ply) and pictures (contact_sheet*, sheets/*.png, report.html).
+    /// Everything else stays. Throws Error(output); without force an existing DIR is then untouched.
     void commit();
 
     /// Removes the partial folder unless it has been committed. May be called from another thread.

@@ -1,5 +1,5 @@
 #pragma once
-// One run at a time on a state folder.
+// Lets one run at a time use a state folder.
 
 #include <atomic>
 #include <chrono>
@@ -11,24 +11,26 @@
 namespace coseg {
 
 enum class LockMode {
-    shared,     ///< only adds files that no other process changes: any number of these at once
-    exclusive,  ///< one alone
+    shared,     ///< for processes that only add files which no other one changes; any number at once
+    exclusive,  ///< for one process alone
 };
 
-/// What a lock knows of time; tests make it short.
+/// The times of a lock; tests make them short.
 struct LockTiming {
     std::chrono::milliseconds heartbeat{
-        5000};  ///< the holder's sign of life, a changed time of the lock file
+        5000};  ///< The holder shows that it lives by changing the time of the lock file at this interval.
     std::chrono::milliseconds patience{
-        16000};  ///< without a sign for so long a holder on another host counts as dead
+        16000};  ///< A holder on another host counts as dead after this time without a sign.
 };
 
-/// Holds FILE locked while it lives. The operating system ends the lock with the process, however that ends. Where file
-/// systems lock for one host only, the record in FILE (host, process, time) and its heartbeat tell a holder on another
-/// host; that of a dead one is taken over after `patience`. Not collective: one rank holds it for all.
+/// Holds FILE locked during its lifetime. The operating system ends the lock with the process, however that
+/// ends. Some file systems lock for one host only. There, the record in FILE (host, process, time) and its
+/// heartbeat reveal a holder on another host. The lock of a dead holder is taken over after `patience`. Not
+/// collective: one rank holds the lock for all.
 class StateLock {
   public:
-    /// Throws Error(output): naming the holder if there is one, or the cause if the file cannot be made.
+    /// Takes the lock. Throws Error(output) that names the holder if there is one, or the cause if the file
+    /// cannot be made.
     StateLock(const std::string& file, LockMode mode, LockTiming timing = {});
     ~StateLock();
     StateLock(const StateLock&) = delete;

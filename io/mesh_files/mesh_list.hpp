@@ -1,5 +1,5 @@
 #pragma once
-// The meshes that a command line names.
+// Finds the meshes that a command line names.
 
 #include <cstdint>
 #include <string>
@@ -14,13 +14,14 @@ struct MeshEntry {
 };
 
 /// Expands MESH | DIRECTORY | @LIST ... into meshes sorted by name (byte order).
-/// - A directory stands for the .off, .obj, .ply and .stl files in it (either case), not for folders in it
-///   nor for hidden files (.NAME).
+/// - A directory means the .off, .obj, .ply and .stl files in it (in either case), but no folders in it and
+///   no hidden files (.NAME).
 /// - @LIST is a text file with one mesh or directory a line, relative to the list's own folder, else to the
-///   current one; blank lines and what follows a # at the start of a line or behind a blank are left out.
-/// Throws Error(input) naming the path (and line of the list) for: nothing given, a path that is missing or
-/// unreadable, a directory or list without meshes, an unknown extension, two files of one name (both are
-/// named). Time grows with the number of files, but for the sorting.
+///   current one. Blank lines are skipped, and so is everything from a # at the start of a line or after a
+///   blank.
+/// Throws Error(input) naming the path (and line of the list) if nothing is given, a path is missing or
+/// unreadable, a directory or list has no meshes, an extension is unknown, or two files have one name (both
+/// are named). Time is linear in the number of files, except for the sorting.
 std::vector<MeshEntry> expand_mesh_list(const std::vector<std::string>& arguments);
 
 }  // namespace coseg

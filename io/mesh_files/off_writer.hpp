@@ -1,5 +1,5 @@
 #pragma once
-// Meshes into ASCII OFF files.
+// Writes meshes as ASCII OFF files.
 
 #include <string>
 
@@ -8,8 +8,8 @@
 
 namespace coseg {
 
-/// Coordinates in the fewest digits that read back to the same double; faces in their order.
-/// Written whole or not at all; Error(output) as in atomic_file.hpp.
+/// Coordinates have the fewest digits that read back to the same double. Faces keep their order. The file is
+/// written whole or not at all; Error(output) as in atomic_file.hpp.
 void write_off(const std::string& path, const PolygonMesh& mesh);
 void write_off(const std::string& path, const TriMesh& mesh);
 

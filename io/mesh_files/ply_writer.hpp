@@ -1,5 +1,5 @@
 #pragma once
-// Labelled meshes as coloured PLY files, for mesh viewers.
+// Writes labelled meshes as coloured PLY files for mesh viewers.
 
 #include <string>
 #include <vector>

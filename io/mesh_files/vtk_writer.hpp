@@ -1,5 +1,5 @@
 #pragma once
-// Labelled meshes for ParaView: VTK's XML files.
+// Writes labelled meshes for ParaView, as VTK's XML files.
 
 #include <Eigen/Core>
 #include <string>
@@ -16,10 +16,10 @@ struct CellData {
     std::vector<std::pair<std::string, std::vector<double>>> values;  ///< written in single precision
 };
 
-/// Writes the polygons as PolyData (.vtp), vertices in single precision, arrays little endian behind the XML. The first of
-/// data.labels is what ParaView colours by. Written whole or not at all; Error(output) as atomic_file.hpp, Error(internal)
-/// if an array has not one value per face.
-/// Source: VTK File Formats, XML formats (version 1.0, appended raw data, UInt64 headers).
+/// Writes the polygons as PolyData (.vtp), vertices in single precision, arrays little endian behind the XML.
+/// The first of data.labels is what ParaView colours by. Written whole or not at all; Error(output) as
+/// atomic_file.hpp, Error(internal) if an array has not one value per face. Source: VTK File Formats, XML
+/// formats (version 1.0, appended raw data, UInt64 headers).
 void write_vtp(const std::string& path, const PolygonMesh& mesh, const CellData& data);
 
 /// Writes a multi-block file (.vtm) that opens `files` (name, path relative to the .vtm) at once.

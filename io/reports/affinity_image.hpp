@@ -1,6 +1,6 @@
 #pragma once
-// DIR/affinity.png: the links of all patches, sorted by part. Format of the rows: docs/formats.md, `partition.affinity`.
-// Source: Hu, Fan, Liu 2012, Figure 4.
+// DIR/affinity.png: the links of all patches, sorted by part. Format of the rows: docs/formats.md,
+// `partition.affinity`. Source: Hu, Fan, Liu 2012, Figure 4.
 
 #include <string>
 #include <vector>
@@ -9,9 +9,10 @@
 
 namespace coseg {
 
-/// rows: n texts of n digits 0-9a-z; part_ends: the bin after the last of each part, ascending, at most n. White is no link, dark
-/// blue the strongest; lines part the parts, and a strip in each part's colour runs along the top and the left. At least
-/// 480 pixels wide. No rows: an empty image.
+/// The image of the affinity. rows: n texts of n digits 0-9a-z. part_ends: the bin after the last of each
+/// part, ascending, at most n. White means no link, dark blue the strongest. Lines separate the parts, and a
+/// strip in each part's colour runs along the top and the left. The image is at least 480 pixels wide.
+/// Without rows it is empty.
 Image affinity_image(const std::vector<std::string>& rows, const std::vector<int>& part_ends);
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as PNG files.
+// Writes pictures as PNG files.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace coseg {
 /// the same bytes. Throws Error(internal) if libpng refuses it (an empty picture).
 std::string png_bytes(const Image& image);
 
-/// Writes whole or not at all (atomic_file.hpp); Error(output) as there.
+/// Writes the file whole or not at all. Throws Error(output) as atomic_file.hpp does.
 void write_png(const std::string& path, const Image& image);
 
 }  // namespace coseg

@@ -120,15 +120,16 @@ struct Report {
     std::vector<double> eigenvalues;
     std::vector<ReportStart> starts;
     int chosen_start = 0;
-    /// Three unit vectors in the axes of the files, ascending by how well the positions of linked patches agree along them.
+    /// Three unit vectors in the axes of the files, ascending by how well the positions of linked patches
+    /// agree along them.
     std::vector<std::vector<double>> position_directions;
     std::vector<double> position_correlations;
     std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
     std::vector<ReportStrength> feature_strengths;
-    std::vector<double>
-        inside_part;  ///< per part: share of the coefficients of its columns that stay inside it
-    std::vector<std::vector<double>>
-        coefficient_blocks;  ///< parts x parts: share of all coefficients, row x column
+    /// Per part: share of the coefficients of its columns that stay inside it.
+    std::vector<double> inside_part;
+    /// Parts x parts: share of all coefficients, row x column.
+    std::vector<std::vector<double>> coefficient_blocks;
     std::vector<std::int64_t> pairs_by_feature_count;  ///< pairs with 1, 2, ... nonzero features
 };
 

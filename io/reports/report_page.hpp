@@ -1,5 +1,5 @@
 #pragma once
-// DIR/report.html: one file that shows a run, without a network.
+// Writes DIR/report.html: one file that shows a run and needs no network.
 
 #include <optional>
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace coseg {
 
-/// A shape's triangles as the page reads them, in base64: little endian, uint32 vertices V and faces F, 3 V uint16 coordinates over
-/// -1..1, padded to 4 bytes, 3 F corners (uint16, or uint32 if V > 65535), F uint16 labels with 0x8000 set where wrong.
-/// mesh: in the unit ball (src/pictures/picture_mesh.hpp).
+/// A shape's triangles as the page reads them, in base64: little endian, uint32 vertices V and faces F, 3 V
+/// uint16 coordinates over -1..1, padded to 4 bytes, 3 F corners (uint16, or uint32 if V > 65535), F uint16
+/// labels with 0x8000 set where wrong. mesh: in the unit ball (src/pictures/picture_mesh.hpp).
 std::string packed_mesh(const TriMesh& mesh, const std::vector<int>& labels,
                         const std::vector<bool>& is_wrong);
 
 struct PageShape {
-    std::string packed;              ///< packed_mesh; empty: the shape is in the table only
+    std::string packed;              ///< packed_mesh; empty if the shape is in the table only
     std::optional<double> accuracy;  ///< 0..1, where the truth is known
 };
 
 struct ReportPage {
     std::string title;
     std::string report_json;  ///< the content of report.json
-    std::string sheet_png;    ///< the content of contact_sheet.png; empty: none
+    std::string sheet_png;    ///< the content of contact_sheet.png; empty if there is none
     View view;
     std::optional<double> accuracy;  ///< mean over the shapes
     std::vector<PageShape> shapes;   ///< in the order of the report's
@@ -33,7 +33,8 @@ struct ReportPage {
 /// Whether the libraries that the page needs are built in.
 bool can_write_report_page();
 
-/// Written whole or not at all. Throws Error(output) as atomic_file.hpp, Error(internal) if the libraries are not built in.
+/// Writes the page whole or not at all. Throws Error(output) as atomic_file.hpp does, Error(internal) if the
+/// libraries are not built in.
 void write_report_page(const std::string& path, const ReportPage& page);
 
 }  // namespace coseg

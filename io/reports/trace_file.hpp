@@ -8,10 +8,10 @@
 
 namespace coseg {
 
-/// Writes the spans of all ranks as trace events in JSON: one process a rank, one complete event ("ph": "X") a span,
-/// start and duration in microseconds, longest first among those that start together, so that each encloses what
-/// follows. Throws Error(output) if the file cannot be written.
-/// Source: "Trace Event Format" of the Chromium project, JSON Object Format.
+/// Writes the spans of all ranks as trace events in JSON: one process a rank, one complete event ("ph": "X")
+/// a span, start and duration in microseconds, longest first among those that start together, so that each
+/// encloses what follows. Throws Error(output) if the file cannot be written. Source: "Trace Event Format" of
+/// the Chromium project, JSON Object Format.
 void write_trace(const std::string& path, const std::vector<RankTrace>& ranks);
 
 }  // namespace coseg
