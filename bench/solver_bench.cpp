@@ -1,11 +1,11 @@
-// What the subspace solvers cost: seconds, iterations, passes and memory against N, and the dense form beside
-// the working set where it fits.
+// Measures what the subspace solvers cost: seconds, iterations, passes and memory against N, and the dense
+// form beside the working set where it fits.
 //
 //   mpirun -n P solver_bench [--sizes 1000,5000,20000] [--dense-up-to 1000] [--scope paper] [--lambda 1000]
-//   [--gap 1e-4] [--links 0] [--strong]
+//                            [--gap 1e-4] [--links 0] [--strong]
 //
-// --strong solves each case on rank 0 alone first, and prints how much longer that takes than all ranks together.
-// CPU seconds stand beside wall seconds, for machines that are shared.
+// --strong first solves each case on rank 0 alone, and prints how much longer that takes than all ranks
+// together. CPU seconds stand beside wall seconds, for machines that are shared.
 
 #include <mpi.h>
 #include <unistd.h>
@@ -137,8 +137,8 @@ class MemoryWatch {
     MemoryWatch(const MemoryWatch&) = delete;
     MemoryWatch& operator=(const MemoryWatch&) = delete;
 
-    /// Megabytes that all ranks together have held at most so far. What ranks share - features, and the pages of the program
-    /// and its libraries - is counted once.
+    /// Megabytes that all ranks together have held at most so far. What ranks share - features, and the pages
+    /// of the program and its libraries - is counted once.
     [[nodiscard]] double peak_megabytes(const coseg::Comm& comm) const {
         const auto pages = static_cast<double>(coseg::all_sum(comm, own_.load())) +
                            coseg::all_max(comm, static_cast<double>(shared_.load()));
@@ -168,8 +168,8 @@ double sum_over_ranks(const coseg::Comm& comm, double value) {
     return sum;
 }
 
-/// What one core does in large single-precision matrix products of the features' length, in 1e9 operations per
-/// CPU second; all ranks measure at the same time, and the mean is given.
+/// What one core does in large single-precision matrix products of the features' length, in 1e9 operations
+/// per CPU second; all ranks measure at the same time, and the mean is given.
 double machine_gigaflops(const coseg::Comm& comm) {
     constexpr int size = 2048;
     constexpr int length = features * bins;
@@ -186,8 +186,9 @@ double machine_gigaflops(const coseg::Comm& comm) {
     return sum_over_ranks(comm, 2e-9 * repeats * size * size * length / seconds) / comm.size();
 }
 
-/// docs/scaling.md: what a rank hands to collective calls. Each pass merges 8 candidates of 16 bytes a row and, but
-/// for the first, raises H prices a row; each iteration, and the start, sends the H values of a pair to its row and back.
+/// docs/scaling.md: what a rank hands to collective calls. Each pass merges 8 candidates of 16 bytes a row
+/// and, but for the first, raises H prices a row; each iteration, and the start, sends the H values of a pair
+/// to its row and back.
 double model_bytes(const coseg::Comm& comm, const coseg::SubspaceProblem& problem,
                    const coseg::SolveResult& result) {
     const auto rows = static_cast<double>(problem.size());

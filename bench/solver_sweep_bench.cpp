@@ -1,11 +1,12 @@
-// Whether the subspace solvers reach a gap over the whole range of the penalties: one line of JSON a case, small
-// problems of three kinds, both scopes, and a summary.
+// Tests whether the subspace solvers reach a gap over the whole range of the penalties. It solves small
+// problems of three kinds in both scopes, and prints one line of JSON for each case, and a summary.
 //
-//   mpirun -n P solver_sweep_bench [--kinds random,histogram,counts] [--size 40] [--gaps 1e-4,1e-8] [--seconds 10]
-//   [--alphas 0,.01,.1,.5] [--betas 0,.01,.1,.5] [--lambdas 0,1e-3,1e-2,.1,1,100,1e4] [--scopes paper,mesh]
+//   mpirun -n P solver_sweep_bench [--kinds random,histogram,counts] [--size 40] [--gaps 1e-4,1e-8]
+//                                  [--seconds 10] [--alphas 0,.01,.1,.5] [--betas 0,.01,.1,.5]
+//                                  [--lambdas 0,1e-3,1e-2,.1,1,100,1e4] [--scopes paper,mesh]
 //
-// The penalties are those of columns of unit length; for counts they are multiplied by the mean squared length of a
-// column, which is what makes them act alike.
+// The penalties are those of columns of unit length. For counts they are multiplied by the mean squared
+// length of a column, so that they have the same effect.
 
 #include <mpi.h>
 

@@ -1,16 +1,19 @@
-// What the stages before the optimiser cost beside their floors: the same work's unavoidable part, done by itself.
+// Measures the stages before the optimiser beside their floors. A floor is the part of the same work that
+// cannot be avoided, done by itself.
 //
 //   stage_floors_bench MESH ...          JSON on standard output; seconds are sums over the meshes
 //
 // stage              floor
-// shape_diameter     Embree alone: as many rays of the same cone, in packets prepared before, without our filter
-// geodesics          for every sixteen samples one Dijkstra search of the whole surface, which gives their order, and
-//                    every arc of the surface graph relaxed once for each of them
-// words              the shape contexts of all faces read once for every round over all of them, those of a sample
-//                    once for every seed, and one product of all contexts with all words
-// oversegmentation   on every level of the recursive cuts, one sparse factorisation and the solves of one Fiedler
-//                    vector, of the super-faces' graph
-// The floor is a bound for the method as it is, not for what another method could do.
+// shape_diameter     Embree alone: as many rays of the same cone, in packets that are prepared before,
+//                    without our filter
+// geodesics          for every sixteen samples one Dijkstra search of the whole surface, which gives their
+//                    order, and every arc of the surface graph relaxed once for each of them
+// words              the shape contexts of all faces read once for every round over all of them, those of a
+//                    sample once for every seed, and one product of all contexts with all words
+// oversegmentation   on every level of the recursive cuts, one sparse factorisation and the solves of one
+//                    Fiedler vector, of the super-faces' graph
+//
+// A floor is a bound for the method as it is, not for what another method could do.
 
 #include <embree3/rtcore.h>
 #include <mpi.h>

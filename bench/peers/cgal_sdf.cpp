@@ -1,7 +1,9 @@
-// The peer of bench/speed.py: CGAL's segmentation by shape diameter, each mesh alone, with CGAL's defaults.
+// The peer of bench/speed.py: CGAL's segmentation by shape diameter with its defaults. Each mesh is
+// segmented on its own.
 //
-//   cgal_sdf DIRECTORY MESH.off ...      writes DIRECTORY/NAME.seg, a line a face, and a line a mesh to standard
-//   output
+//   cgal_sdf DIRECTORY MESH.off ...
+//
+// It writes DIRECTORY/NAME.seg with a line for each face, and prints a line for each mesh.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

@@ -2,9 +2,10 @@
 //
 //   geodesic_error [--faces N] [--samples N] MESH ...       one JSON object on standard output
 //
-// For N faces of each mesh, evenly spread over the file, the exact distance from the face's centroid to the centroid of
-// every face, averaged by area, is compared with the weighted sum over coseg's sample points: relative errors, and the
-// same after the best common scale, which histograms with ranges of their own a mesh do not see.
+// For N faces of each mesh, evenly spread over the file, the exact distance from the face's centroid to the
+// centroid of every face, averaged by area, is compared with the weighted sum over coseg's sample points:
+// relative errors, and the same after the best common scale, which histograms with ranges of their own a mesh
+// do not see.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
         // A Comm frees its communicator, so that it has to go out of scope before MPI_Finalize.
         const coseg::Comm world(MPI_COMM_WORLD);
         for (const char* path : {argv[1], argv[2]}) {
-            // A file may hold polygons, seams or degenerate faces; repair makes a clean triangle mesh of them.
+            // A file may hold polygons, seams or degenerate faces. repair makes a clean triangle mesh of it.
             const coseg::TriMesh mesh = coseg::repair(coseg::read_mesh(path), path).mesh;
             const coseg::FaceGeometry geometry = coseg::face_geometry(mesh);
             const Eigen::VectorXd thickness =
@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
         options.parts = 2;
         options.out = "two_meshes_result";
         options.force = true;
-        options.html = false;  // report.html lists options of a command line, and there is none
+        // report.html lists the options of a command line, and this program has none.
+        options.html = false;
         coseg::co_segment(world, options, {}, {});
     }
     MPI_Finalize();

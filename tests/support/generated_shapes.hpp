@@ -9,8 +9,8 @@
 
 namespace coseg::test {
 
-/// One chair, one aeroplane and one human of about 3,000 faces, as `coseg generate FAMILY --seed 1` makes them,
-/// each with the name of its family. The meshes are closed and their faces have true labels.
+/// One chair, one aeroplane and one human of about 3,000 faces, as `coseg generate FAMILY --seed 1` makes
+/// them, each with the name of its family. The meshes are closed and their faces have true labels.
 inline std::vector<std::pair<std::string, LabeledShape>> generated_shapes() {
     std::vector<std::pair<std::string, LabeledShape>> shapes;
     for (const char* family : {"chair", "airplane", "human"})

@@ -5,7 +5,8 @@
 namespace coseg {
 namespace {
 
-/// 128 patches in four tiles; patch i is linked to i + 2 (mod 128), so even to even and odd to odd, with `weight` of i.
+/// 128 patches in four tiles; patch i is linked to i + 2 (mod 128), so even to even and odd to odd, with
+/// `weight` of i.
 template <class Weight>
 SparseCoefficients ring(const Comm& comm, const Weight& weight) {
     constexpr int patches = 128;

@@ -132,8 +132,8 @@ TEST_P(CoSegmentationCut, TakesACutWithoutAdjacencyWhereAdjacencyCutsShapesApart
     const Comm comm(MPI_COMM_WORLD);
     const int parts = GetParam();
     ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
-    for (GlobalPatchNeighbors& pair : toy.neighbors)
-        pair.concavity = 0.0;  // nothing tells where segments meet
+    // Nothing tells where segments meet.
+    for (GlobalPatchNeighbors& pair : toy.neighbors) pair.concavity = 0.0;
     CutOptions options;
     options.parts = parts;
     options.starts = single_start(parts, 1000.0);
@@ -161,8 +161,8 @@ TEST_P(CoSegmentationCut, RecallIsTheShareOfLinksThatStayAtHome) {
 
 INSTANTIATE_TEST_SUITE_P(Parts, CoSegmentationCut, testing::Values(2, 3, 5));
 
-/// Two parts of eight patches in each of five meshes, one above the other. Patches are linked to all of the other meshes:
-/// those of mesh 0 more to the wrong part, the others to their own.
+/// Two parts of eight patches in each of five meshes, one above the other. Patches are linked to all of the
+/// other meshes: those of mesh 0 more to the wrong part, the others to their own.
 struct MisleadingLinks {
     static constexpr int meshes = 5;
     static constexpr int patches = meshes * 16;

@@ -195,8 +195,8 @@ TEST(NormalizedCut, NamesTheResidualWhenItDoesNotConverge) {
     }
 }
 
-/// Two meshes of two parts of n nodes each, node ((mesh * 2 + part) * n + k); all pairs linked: 1 inside a part of a
-/// mesh, `mesh` inside a mesh, `part` inside a part, else not.
+/// Two meshes of two parts of n nodes each, node ((mesh * 2 + part) * n + k); all pairs linked: 1 inside a
+/// part of a mesh, `mesh` inside a mesh, `part` inside a part, else not.
 SparseRows two_by_two(int n, double mesh, double part) {
     std::vector<Edge> edges;
     for (int i = 0; i < 4 * n; ++i) {

@@ -34,8 +34,9 @@ void expect_history(const SolveResult& result) {
     EXPECT_EQ(last.working_pairs, result.working_pairs);
 }
 
-/// Solves on all ranks and on rank 0 alone: the bits must agree, and the certificate must hold. Returns what all ranks
-/// found, with the coefficients of all columns. (On every rank alone it would take as many times as long, for the same.)
+/// Solves on all ranks and on rank 0 alone: the bits must agree, and the certificate must hold. Returns what
+/// all ranks found, with the coefficients of all columns. (On every rank alone it would take as many times as
+/// long, for the same.)
 SolveResult expect_same_on_any_ranks(const SubspaceProblem& problem, const SolveOptions& options) {
     const Comm world(MPI_COMM_WORLD);
     SolveResult shared = solve_subspace(world, problem, options);
@@ -57,7 +58,8 @@ SolveOptions precise(const std::string& solver, double gap = 1e-8) {
 }
 
 TEST(SubspaceSolver, PaperScopeDense) {
-    // Three tiles of columns; down to 1e-8 it would be thousands of iterations, which OracleProblems has already.
+    // Three tiles of columns; down to 1e-8 it would be thousands of iterations, which OracleProblems has
+    // already.
     SubspaceProblem problem = random_subspace_problem(3, 12, 70, 10, 21);
     problem.lambda = 5.0;
     const SolveResult result = expect_same_on_any_ranks(problem, precise("dense", 1e-4));

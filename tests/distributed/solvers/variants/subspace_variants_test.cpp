@@ -25,8 +25,8 @@ void expect_history(const SolveResult& result) {
     EXPECT_GT(result.history.front().relative_gap, last.relative_gap);
 }
 
-/// Solves on all ranks and on rank 0 alone: figures and coefficients must agree to the bit. Returns what all ranks found,
-/// with the coefficients of all columns.
+/// Solves on all ranks and on rank 0 alone: figures and coefficients must agree to the bit. Returns what all
+/// ranks found, with the coefficients of all columns.
 SolveResult solve_both_ways(const SubspaceProblem& problem, SubspaceVariant variant, int feature = 0,
                             const SolveOptions& options = precise) {
     const Comm world(MPI_COMM_WORLD);
@@ -171,8 +171,8 @@ TEST(SubspaceVariants, L1WithoutPenaltyIsLeastSquares) {
     SubspaceProblem problem = random_subspace_problem(1, 30, 12, 4, 52);
     problem.beta = 0.0;
     SolveOptions options = precise;
-    options.gap =
-        1e-3;  // without a penalty no dual is feasible but by rounding: the point counts, not the bound
+    // Without a penalty no dual is feasible but by rounding: the point counts, not the bound.
+    options.gap = 1e-3;
     options.max_iterations = 20000;
     const SolveResult result =
         solve_variant(Comm(MPI_COMM_WORLD), problem, SubspaceVariant::ssc_signed, 0, options);

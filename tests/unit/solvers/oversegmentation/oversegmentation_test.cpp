@@ -160,8 +160,8 @@ TEST(Oversegmentation, VirtualEdgesJoinComponents) {
     }
     expect_valid(oversegment(p.geometry, joined, {.patches = 1}, 1), joined, 1);
     const std::vector<int> two = oversegment(p.geometry, joined, {.patches = 2}, 1);
-    for (std::size_t f = 0; f < two.size(); ++f)
-        EXPECT_EQ(two[f], f < 320 ? 0 : 1);  // the virtual edge is the cheapest cut
+    // The virtual edge is the cheapest cut.
+    for (std::size_t f = 0; f < two.size(); ++f) EXPECT_EQ(two[f], f < 320 ? 0 : 1);
 }
 
 TEST(Oversegmentation, RejectsImpossibleOptions) {

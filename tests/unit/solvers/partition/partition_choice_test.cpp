@@ -58,8 +58,8 @@ TEST(PartitionChoice, ScoresDoNotDependOnTheUnitOfATerm) {
     EXPECT_GT(a[2] - partition_scores(terms, bare, {})[2], 2.0) << "the descriptor speaks for the third";
 }
 
-// Nine starts agree and one does not, and its long smooth boundary explains a little more. In deviations of these ten it is
-// far ahead in the latter, in what deviations usually are it is not.
+// Nine starts agree and one does not, and its long smooth boundary explains a little more. In deviations of
+// these ten it is far ahead in the latter, in what deviations usually are it is not.
 TEST(PartitionChoice, TheOddOneOutIsNotMagnified) {
     std::vector<PartitionTerms> terms(10, terms_with(-0.01, 1.0));
     for (PartitionTerms& t : terms) t.explained = {{.pooled = 0.0, .per_mesh = 0.3}};

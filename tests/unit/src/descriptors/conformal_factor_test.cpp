@@ -87,8 +87,8 @@ TEST(ConformalFactor, OfASpheroidIsKnown) {
         bool at_pole = false;
         for (int k = 0; k < 3; ++k) {
             const auto ring = static_cast<std::size_t>(mesh.faces(k, f) / around);
-            at_pole = at_pole || ring < 5 ||
-                      ring + 5 > radii.size();  // where the rings are wider than they are apart
+            // Where the rings are wider than they are apart.
+            at_pole = at_pole || ring < 5 || ring + 5 > radii.size();
             expected += exact[ring + 1] / 3.0 - exact[200] / 3.0;
         }
         if (!at_pole) {

@@ -29,8 +29,8 @@ TEST(MinimumCurvature, OfATorusFollowsTheClosedForm) {
     const PrincipalCurvatures curvature = principal_curvatures(mesh, face_geometry(mesh));
     for (int v = 0; v < mesh.vertex_count(); ++v) {
         const double from_axis = mesh.vertices.col(v).head<2>().norm();
-        const double across =
-            (from_axis - major) / minor / from_axis;  // cos(v) / (R + r cos(v)); the other is 1 / r
+        // cos(v) / (R + r cos(v)); the other is 1 / r.
+        const double across = (from_axis - major) / minor / from_axis;
         EXPECT_NEAR(curvature.minimum[v], across, 0.12) << v;
         EXPECT_NEAR(curvature.maximum[v], 1.0 / minor, 0.12) << v;
     }

@@ -19,7 +19,8 @@ FaceGeometry four_faces() {
 
 TEST(PatchPlaces, AreCentroidsByAreaInUnitsOfTheSpread) {
     const Eigen::Matrix3Xd positions = patch_positions(four_faces(), {0, 0, 1, 1}, 3);
-    // Centre (4/3, 4/3, 5); squares of offsets x and y: 3 of area 6 at 4/3 and 2/3 from it ... summed by hand.
+    // Centre (4/3, 4/3, 5); squares of offsets x and y: 3 of area 6 at 4/3 and 2/3 from it ... summed by
+    // hand.
     const double squares = 2.0 * (2.0 * 16.0 / 9.0 + 4.0 * 4.0 / 9.0);
     const double unit = std::sqrt(squares / 18.0);
     EXPECT_NEAR(positions(0, 0), (1.0 - 4.0 / 3.0) / unit, 1e-14);

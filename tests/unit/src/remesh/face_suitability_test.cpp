@@ -34,7 +34,8 @@ TEST(FaceSuitability, EvenMeshesHaveNoOverlongTriangles) {
 }
 
 TEST(FaceSuitability, CountsTheAreaOfLongTrianglesWhateverTheScale) {
-    // walls 2 pi r h = 0.63 of area 0.69 in all, 0.12 the side of a patch; the lids' triangles are up to 0.2 long
+    // walls 2 pi r h = 0.63 of area 0.69 in all, 0.12 the side of a patch; the lids' triangles are up to 0.2
+    // long
     const TriMesh thin = rod(0.1, 1.0, 64);
     EXPECT_GT(overlong_area_share(thin, 50), 0.9);
     // A single patch's side is 0.83: the walls are longer, the lids shorter.
