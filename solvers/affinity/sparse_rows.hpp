@@ -34,11 +34,11 @@ struct SparseRows {
     [[nodiscard]] std::int64_t local_rows() const noexcept { return rows.size(); }
 };
 
-/// The rows `range` of a matrix from entries of these rows in any order; entries of the same place are added,
-/// smallest first, so that their order does not matter.
+/// The rows `range` of a matrix, made of entries of these rows in any order. Entries of the same row and
+/// column are added, smallest first, so that their order does not matter.
 SparseRows rows_from_entries(std::int64_t size, BlockRange range, std::vector<SparseEntry> entries);
 
-/// The same from entries of any row on any rank: each entry travels to the owner of its row. Collective.
+/// The same, made of entries of any row on any rank: each entry is sent to the owner of its row. Collective.
 SparseRows exchange_entries(const Comm& comm, std::int64_t size, const std::vector<SparseEntry>& entries);
 
 /// All rows on every rank. Collective.
@@ -58,7 +58,7 @@ struct WeightedMatrix {
     double weight = 1.0;
 };
 
-/// sum of weight * matrix over matrices that own the same rows; those of weight 0 are left out.
+/// The sum of weight * matrix over matrices that own the same rows. Those of weight 0 are left out.
 SparseRows weighted_sum(std::span<const WeightedMatrix> terms);
 
 /// Drops entries smaller than `threshold`.

@@ -1,10 +1,11 @@
 #pragma once
-// The inner product that the solvers' bits rest on.
+// The inner product on which the bits of the solvers' results depend.
 
 namespace coseg {
 
-/// Four accumulators in a fixed order: fast without leave to reorder, and the same bits at any alignment. Inlined for
-/// the callers' vectors.
+/// Adds in four accumulators in a fixed order. It is therefore fast although the compiler may not reorder
+/// sums, and it gives the same bits at any alignment. It is inlined, so that it is compiled for the vectors
+/// of its callers.
 __attribute__((always_inline)) inline double inner_product(const double* x, const double* y, int n) noexcept {
     double sum[4] = {0.0, 0.0, 0.0, 0.0};
     int k = 0;

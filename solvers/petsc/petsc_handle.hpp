@@ -18,9 +18,9 @@ void check(PetscErrorCode code, const char* call);
 /// does not fit.
 PetscInt petsc_int(std::int64_t value, const char* what);
 
-/// Owns one handle and destroys it. Destruction is collective over the object's communicator; a rank that
-/// unwinds alone must not enter a collective call, so handles are given up, not destroyed, while an exception
-/// is under way.
+/// Owns one handle and destroys it. Destruction is collective over the object's communicator, and a rank that
+/// unwinds alone must not enter a collective call. While an exception is under way, the handle is therefore
+/// given up instead of destroyed.
 template <class Handle, PetscErrorCode (*Destroy)(Handle*)>
 class PetscHandle {
   public:

@@ -1,5 +1,5 @@
 #pragma once
-// PETSc's own account of its events, objects and messages.
+// Gives PETSc's own log of its events, objects and messages.
 
 #include <string>
 
@@ -7,10 +7,11 @@
 
 namespace coseg {
 
-/// Turns PETSc's log on; after PetscSession has begun. Throws Error(internal) if PETSc does not.
+/// Turns PETSc's log on. Call it after PetscSession has begun. Throws Error(internal) if PETSc cannot.
 void begin_petsc_log();
 
-/// What PETSc prints for -log_view, on rank 0; empty on the others. Collective over all of PETSc's ranks.
+/// The text that PETSc prints for -log_view, on rank 0; empty on the others. Collective over all of PETSc's
+/// ranks.
 std::string petsc_log_text(const Comm& comm);
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// PETSc and SLEPc between their initialisation and their end.
+// Initialises PETSc and SLEPc, and ends them.
 
 #include <string>
 #include <vector>
@@ -12,8 +12,9 @@ namespace coseg {
 /// Files that PETSc reads by itself (~/.petscrc) are ignored. Collective over MPI_COMM_WORLD.
 class PetscSession {
   public:
-    /// `arguments`: what the user gave for PETSc and SLEPc, e.g. {"-eps_ncv", "80"}. Throws Error(usage)
-    /// where unknown_petsc_option finds one, Error(internal) if the libraries do not start.
+    /// `arguments` are the words that the user gave for PETSc and SLEPc, for example {"-eps_ncv", "80"}.
+    /// Throws Error(usage) where unknown_petsc_option finds one, Error(internal) if the libraries do not
+    /// start.
     explicit PetscSession(const std::vector<std::string>& arguments);
     /// Does nothing while an exception is under way: a rank that unwinds alone must not enter a collective
     /// call.
@@ -22,19 +23,20 @@ class PetscSession {
     PetscSession& operator=(const PetscSession&) = delete;
 
   private:
-    std::vector<std::string> words_;  // PETSc keeps pointers into its command line
+    std::vector<std::string> words_;  // PETSc keeps pointers to these
     std::vector<char*> pointers_;
 };
 
-/// The first of `arguments` that cannot be an option of the solvers in use, or "" if there is none: options
+/// The first of `arguments` that cannot be an option of the solvers in use, or "" if there is none. Options
 /// start with one of the prefixes of PETSc's and SLEPc's classes (-eps_, -st_, -bv_, -ds_, -mat_, -vec_,
-/// -log_ ...), a value follows an option. Finds what is wrong before the run; unused_petsc_options finds what
-/// is misspelt after it.
+/// -log_ ...), and a value follows an option. This finds wrong words before the run; unused_petsc_options
+/// finds misspelt ones after it.
 std::string unknown_petsc_option(const std::vector<std::string>& arguments);
 
-/// Options that were set but that no solver asked for, each as "-name" or "-name value": misspelt, most
-/// likely. At the end of a run, before the session ends, it knows of all; of the eigensolver's (-eps_) at any
-/// time. The session's own options are not reported. Throws Error(usage) if the eigensolver refuses a value.
+/// The options that were set but that no solver asked for, each as "-name" or "-name value". Most likely they
+/// are misspelt. At the end of a run, before the session ends, the list is complete; for options of the
+/// eigensolver (-eps_) it is complete at any time. The session's own options are not reported. Throws
+/// Error(usage) if the eigensolver refuses a value.
 std::vector<std::string> unused_petsc_options();
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// Randomness as a function of what it is for, never of the rank or of the order of calls.
+// Randomness that is a function of what it is for, and never of the rank or of the order of calls.
 
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace coseg {
 
-/// splitmix64's mixing step (Steele, Lea, Flood 2014): a bijection of 64-bit words whose outputs pass statistical tests.
+/// splitmix64's mixing step (Steele, Lea, Flood 2014): a bijection of 64-bit words whose outputs pass
+/// statistical tests.
 constexpr std::uint64_t mix_bits(std::uint64_t x) noexcept {
     x += 0x9e3779b97f4a7c15ULL;
     x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
@@ -24,7 +25,7 @@ constexpr std::uint64_t hash_words(std::initializer_list<std::uint64_t> words) n
     return h;
 }
 
-/// A hash of text, e.g. of a mesh's name, so that a mesh keeps its randomness in whatever collection it stands.
+/// A hash of text, for example of a mesh's name. A mesh thus keeps its randomness in every collection.
 constexpr std::uint64_t hash_text(std::string_view text) noexcept {
     std::uint64_t h = 0x13198a2e03707344ULL;
     for (const char c : text) h = mix_bits(h ^ static_cast<unsigned char>(c));
@@ -43,8 +44,8 @@ inline double normal_of(std::uint64_t hash) noexcept {
     return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
 }
 
-/// A stream of such numbers, a UniformRandomBitGenerator for the standard library. Distributions of the standard
-/// library differ between implementations; prefer uniform() and normal() where bytes must agree.
+/// A stream of such numbers, a UniformRandomBitGenerator for the standard library. Distributions of the
+/// standard library differ between implementations; prefer uniform() and normal() where bytes must agree.
 class SeededStream {
   public:
     using result_type = std::uint64_t;

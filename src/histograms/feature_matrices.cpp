@@ -36,7 +36,8 @@ Index columns_of(const std::vector<Eigen::MatrixXd>& matrices) {
     return columns;
 }
 
-/// Runs of columns, sent from one node's leader to the others straight from where they are to where they belong.
+/// Runs of columns, sent from one node's leader to the others straight from where they are to where they
+/// belong.
 class ColumnBroadcast {
   public:
     ColumnBroadcast(const Comm& leaders, int from, double* values, Index dimension)

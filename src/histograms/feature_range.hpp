@@ -1,5 +1,5 @@
 #pragma once
-// The one bin range per feature that all patches of all meshes share.
+// Finds the bin range of each feature, which all patches of all meshes share.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -16,12 +16,12 @@ enum class RangeKind {
     equal_mass,           ///< each bin holds the same share of the collection's weight (rank bins)
 };
 
-/// Bin b holds edges[b] < value <= edges[b + 1]; the first bin also everything below, the last everything
-/// above.
+/// Bin b holds edges[b] < value <= edges[b + 1]. The first bin also holds everything below, the last one
+/// everything above.
 struct FeatureRange {
     RangeKind kind = RangeKind::per_mesh_percentile;
-    std::vector<double>
-        edges;  ///< bins + 1, ascending; repeated where many values are equal (that bin stays empty)
+    /// Bins + 1, ascending; repeated where many values are equal (that bin stays empty).
+    std::vector<double> edges;
     [[nodiscard]] int bins() const noexcept { return static_cast<int>(edges.size()) - 1; }
 };
 
@@ -29,18 +29,20 @@ struct FeatureRange {
 struct FeatureOfMesh {
     std::uint64_t mesh_key = 0;               ///< hash_text(name)
     const Eigen::VectorXd* values = nullptr;  ///< F
-    const Eigen::VectorXd* weights =
-        nullptr;  ///< F, >= 0: the same weights as in the histograms (face area or ones)
+    /// F, >= 0: the same weights as in the histograms (face area or ones).
+    const Eigen::VectorXd* weights = nullptr;
 };
 
-/// Faces that a range is made from: all of them in collections up to this size, a hashed sample of about this
-/// size in larger ones. Their values are gathered to every rank (16 bytes a face).
+/// The number of faces from which a range is made: all of them in collections up to this size, a hashed
+/// sample of about this size in larger ones. Their values are gathered to every rank (16 bytes a face).
 inline constexpr std::int64_t range_sample_faces = 1 << 18;
 
-/// The range of one feature over the whole collection, the same bits on every rank and on any number of
-/// ranks. Deviates: equal mass for Gaussian curvature, which else puts every flat patch into one bin; the
-/// paper has one plain range a feature. Throws AgreedError(input) if a value is not finite or the collection
-/// has no face, AgreedError(internal) if bins < 1 or sizes differ. Collective.
+/// The range of one feature over the whole collection. It has the same bits on every rank and on any number
+/// of ranks. Throws AgreedError(input) if a value is not finite or the collection has no face,
+/// AgreedError(internal) if bins < 1 or sizes differ. Collective.
+///
+/// Deviates: the bins of Gaussian curvature have equal mass, because otherwise every flat patch would fall
+/// into one bin; the paper has one plain range for each feature.
 FeatureRange agree_on_range(const Comm& comm, RangeKind kind, int bins, std::span<const FeatureOfMesh> local,
                             std::uint64_t seed);
 
@@ -50,7 +52,7 @@ FeatureRange agree_on_range(const Comm& comm, RangeKind kind, int bins, std::spa
 void rescale_per_mesh(Eigen::VectorXd& values, const Eigen::VectorXd& area);
 
 /// For each of the ascending `fractions` in [0, 1] the smallest value up to which that fraction of the weight
-/// lies. Without any weight all values count alike. values must not be empty.
+/// lies. Without any weight all values count equally. values must not be empty.
 std::vector<double> weighted_quantiles(std::span<const double> values, std::span<const double> weights,
                                        std::span<const double> fractions);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A sample of the collection's faces that depends on the meshes alone, not on which rank holds them.
+// Draws a sample of the collection's faces that depends on the meshes alone, not on which rank holds them.
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace coseg {
 
-/// The share at which about `wanted` of `faces` faces are taken; 1 where all of them are.
+/// The probability with which about `wanted` of `faces` faces are taken; 1 where all of them are.
 constexpr double sampling_share(std::int64_t wanted, std::int64_t faces) noexcept {
     return faces <= wanted ? 1.0 : static_cast<double>(wanted) / static_cast<double>(faces);
 }

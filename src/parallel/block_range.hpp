@@ -1,9 +1,9 @@
 #pragma once
-// The one definition of who owns what: contiguous blocks of whole tiles.
+// The one definition of which rank owns what: contiguous blocks of whole tiles.
 //
-// Items 0..n-1 are cut into tiles of `tile` items (the last may be short); ranks own contiguous runs of
-// tiles, the first ranks one tile more where they do not divide evenly. Because a rank never owns part of a
-// tile, work done tile by tile gives the same bits on any number of ranks.
+// Items 0 .. n-1 are divided into tiles of `tile` items (the last one may be short). Ranks own contiguous
+// runs of tiles; the first ranks own one tile more where the number does not divide evenly. Because a rank
+// never owns part of a tile, work done tile by tile gives the same bits on any number of ranks.
 //
 // Example: n = 10, tile = 2, 3 ranks: tiles 01 23 45 67 89; rank 0 owns [0,4), rank 1 [4,8), rank 2 [8,10).
 

@@ -35,8 +35,8 @@ std::uint64_t shared_memory_room() {
 NodeSharedMemory::NodeSharedMemory(NodeRanks ranks, std::size_t bytes, std::uint64_t room)
     : ranks_(std::move(ranks)) {
     if (ranks_.any_shared()) {
-        // Asked before, since a page that does not fit any more ends the program with a bus error, and other ranks
-        // of Open MPI 4.1 wait for ever where the first cannot make a window.
+        // Asked before, since a page that does not fit any more ends the program with a bus error, and other
+        // ranks of Open MPI 4.1 wait for ever where the first cannot make a window.
         const auto wanted = std::uint64_t{bytes} * static_cast<std::uint64_t>(ranks_.nodes_on_machine());
         const bool fits = !ranks_.here().is_root() || room >= wanted + spare_bytes;
         fell_back_ = all_min(ranks_.all(), fits ? 1.0 : 0.0) == 0.0 ||

@@ -1,5 +1,5 @@
 #pragma once
-// An array that the ranks of a node hold once between them, in a window of MPI-3 shared memory.
+// An array of which the ranks of a node hold one copy together, in a window of MPI-3 shared memory.
 
 #include <mpi.h>
 
@@ -14,16 +14,18 @@
 
 namespace coseg {
 
-/// Bytes that /dev/shm, where MPI libraries on Linux put their windows, can still take; 0 where there is none.
+/// The number of bytes that /dev/shm can still take; 0 where there is none. MPI libraries on Linux put their
+/// windows there.
 std::uint64_t shared_memory_room();
 
-/// Bytes of one node, aligned to 64 on every rank, zero at first. Where a node has one rank, or any node has not enough
-/// shared memory left (/dev/shm; 64 MB in many containers), every rank has a copy of its own instead, and
-/// ranks() says so: each rank is a node then. Construction is collective over all ranks, fence() and destruction over
-/// those of a node.
+/// The memory of one node, aligned to 64 bytes on every rank and zero at first. Every rank has a copy of its
+/// own instead where a node has one rank, or where any node has not enough shared memory left (/dev/shm has
+/// 64 MB in many containers). ranks() says so: each rank is then a node. Construction is collective over all
+/// ranks, fence() and destruction over those of a node.
 class NodeSharedMemory {
   public:
-    /// `room`: what the memory of this machine can take, as its nodes' first ranks see it.
+    /// `room` is the number of bytes that the memory of this machine can take, as the first ranks of its
+    /// nodes see it.
     NodeSharedMemory(NodeRanks ranks, std::size_t bytes, std::uint64_t room);
     ~NodeSharedMemory();
     NodeSharedMemory(const NodeSharedMemory&) = delete;
@@ -31,7 +33,7 @@ class NodeSharedMemory {
 
     [[nodiscard]] std::byte* data() const noexcept { return data_; }
     [[nodiscard]] const NodeRanks& ranks() const noexcept { return ranks_; }
-    /// Whether ranks of a node were to share this memory and could not; the same on all ranks.
+    /// Whether the ranks of a node should have shared this memory and could not; the same on all ranks.
     [[nodiscard]] bool fell_back() const noexcept { return fell_back_; }
     void fence() const;
 
@@ -50,8 +52,9 @@ class NodeSharedMemory {
     bool fell_back_ = false;
 };
 
-/// `size` values of T, 0 at first; see NodeSharedMemory. Every rank of the node may read all values and write any, but
-/// no two ranks the same one, and none that another reads, between two fences.
+/// `size` values of T, 0 at first; see NodeSharedMemory. Every rank of the node may read all values and write
+/// any. Between two fences, no two ranks may write the same value, and none may write a value that another
+/// reads.
 template <class T>
 class NodeSharedArray {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -66,11 +69,12 @@ class NodeSharedArray {
     [[nodiscard]] T* data() noexcept { return reinterpret_cast<T*>(memory_.data()); }
     [[nodiscard]] const T* data() const noexcept { return reinterpret_cast<const T*>(memory_.data()); }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Those that share this memory: all of a node, or each one alone.
+    /// The ranks that share this memory: all of a node, or each one alone.
     [[nodiscard]] const NodeRanks& ranks() const noexcept { return memory_.ranks(); }
     [[nodiscard]] bool fell_back() const noexcept { return memory_.fell_back(); }
 
-    /// What any rank of the node has written before is what all ranks of the node read after. Collective over the node.
+    /// Makes everything that a rank of the node has written before visible to all ranks of the node after.
+    /// Collective over the node.
     void fence() const { memory_.fence(); }
 
   private:

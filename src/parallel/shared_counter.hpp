@@ -1,5 +1,5 @@
 #pragma once
-// A counter that all ranks draw from: the dynamic schedule of work items of unequal size.
+// A counter from which all ranks draw: the dynamic schedule of work items of unequal size.
 
 #include <mpi.h>
 
@@ -9,8 +9,9 @@
 
 namespace coseg {
 
-/// next() gives 0, 1, 2, ... each to exactly one caller, in the order in which ranks ask. One-sided: no rank waits for
-/// another, though across nodes rank 0 may answer only while it is inside MPI. Construction and destruction are collective.
+/// next() gives 0, 1, 2, ..., each to exactly one caller, in the order in which ranks ask. It is one-sided:
+/// no rank waits for another, though across nodes rank 0 may answer only while it is inside MPI. Construction
+/// and destruction are collective.
 class SharedCounter {
   public:
     explicit SharedCounter(const Comm& comm);
@@ -20,7 +21,7 @@ class SharedCounter {
 
     [[nodiscard]] std::int64_t next();
 
-    /// From now on next() gives nobody less than `exhausted`: a rank's way of telling the others to stop.
+    /// Makes next() give at least `exhausted` from now on. By this a rank tells the others to stop.
     void exhaust();
     [[nodiscard]] bool is_exhausted();
     static constexpr std::int64_t exhausted = std::int64_t{1} << 48;
