@@ -1,5 +1,5 @@
 #pragma once
-// The shapes of a finished run with their labels, read back and dealt over the ranks.
+// Reads back the shapes of a finished run with their labels, and shares them out among the ranks.
 
 #include <optional>
 #include <string>
@@ -22,21 +22,23 @@ struct LabelledMesh {
 };
 
 struct FinishedInput {
-    std::string folder;               ///< of the run
-    std::vector<std::string> meshes;  ///< where the meshes are now; empty: where the run found them
-    std::string truth;                ///< folder of NAME.seg; empty: none
+    std::string folder;  ///< of the run
+    /// Where the meshes are now; empty if they are where the run found them.
+    std::vector<std::string> meshes;
+    std::string truth;  ///< the folder of NAME.seg; empty if there is none
 };
 
 /// The run's report on every rank. Collective; throws AgreedError(input).
 FinishedRun read_run(const Comm& comm, const std::string& folder);
 
-/// This rank's share of the shapes, ascending by number: every ranks-th one. Collective; throws AgreedError(input) if a
-/// mesh is gone, or has another number of faces than it was segmented with.
+/// This rank's share of the shapes, ascending by number: every shape whose number is the rank modulo the
+/// number of ranks. Collective; throws AgreedError(input) if a mesh is gone, or has another number of faces
+/// than it was segmented with.
 std::vector<LabelledMesh> read_shapes(const Comm& comm, const FinishedRun& run, const FinishedInput& input);
 
-/// Which truth label each part stands for: the one-to-one assignment that covers the most area over all shapes with truth
-/// (each shape counting the same), as `coseg score` has it; -1 for a part left over. K entries. Collective; throws
-/// AgreedError(input) if no shape has truth.
+/// The true label for which each part stands, K entries. It is the one-to-one assignment that covers the most
+/// area over all shapes with truth (where each shape has the same weight), as in `coseg score`; -1 for a part
+/// left over. Collective; throws AgreedError(input) if no shape has truth.
 std::vector<int> agree_on_truth(const Comm& comm, const std::vector<LabelledMesh>& shapes, int parts);
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// What every subcommand of coseg is: a set of options added to the command line and a function to run.
+// A subcommand of coseg: a set of options that is added to the command line, and a function to run.
 
 #include <functional>
 #include <memory>
@@ -14,7 +14,7 @@ class App;
 
 namespace coseg {
 
-/// What the command line gives beside the subcommand's own options.
+/// What the command line gives besides the subcommand's own options.
 struct Invocation {
     const Comm& world;
     std::vector<std::string> petsc_arguments;  ///< whatever follows `--`
@@ -22,11 +22,12 @@ struct Invocation {
 
 struct Command {
     CLI::App* app = nullptr;  ///< parsed() tells whether the user asked for it
-    std::function<void(const Invocation& invocation)>
-        run;  ///< throws Error; AgreedError where all ranks agree
+    /// Throws Error; AgreedError where all ranks agree.
+    std::function<void(const Invocation& invocation)> run;
 };
 
-/// Each adds its subcommand to `parent`; options are validated by CLI11 (type, range) before run is called.
+/// Each function adds its subcommand to `parent`. CLI11 validates the options (type, range) before run is
+/// called.
 Command add_run_command(CLI::App& parent);
 Command add_generate_command(CLI::App& parent);
 Command add_score_command(CLI::App& parent);

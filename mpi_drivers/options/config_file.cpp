@@ -62,8 +62,8 @@ std::vector<std::string> words_of(const std::vector<CLI::ConfigItem>& items, con
                                   const std::vector<std::string>& given) {
     std::vector<std::string> words;
     for (const CLI::ConfigItem& item : items) {
-        if (item.name == "++" || item.name == "--")
-            continue;  // CLI11's marks for the begin and end of a section
+        // CLI11's marks for the begin and end of a section.
+        if (item.name == "++" || item.name == "--") continue;
         refuse_misplaced(item, path, given.front());
         const std::string option = "--" + item.name;
         if (item.name == "input") {

@@ -1,5 +1,5 @@
 #pragma once
-// Options from a TOML or INI file, as if they stood on the command line.
+// Reads options from a TOML or INI file, as if they stood on the command line.
 
 #include <string>
 #include <vector>
@@ -8,10 +8,12 @@
 
 namespace coseg {
 
-/// Words of the command line, with the keys of the file that `--config FILE` names as options before them. A key is an
-/// option's name without its dashes; `input` holds the meshes. What the command line gives itself wins. Unknown keys become
-/// unknown options, which the parser refuses by name. Without --config the words come back as they are.
-/// Rank 0 reads the file. Collective; throws AgreedError(usage) if it cannot be read or is not TOML or INI.
+/// The words of the command line, preceded by the keys of the file that `--config FILE` names, as options. A
+/// key is an option's name without its dashes; `input` holds the meshes. Options on the command line itself
+/// win. Unknown keys become unknown options, which the parser refuses by name. Without --config the words
+/// come back as they are. Rank 0 reads the file. Collective; throws AgreedError(usage) if it cannot be read
+/// or is not TOML or INI.
+///
 /// Deviates: CLI11 reads configuration files for the whole program only, with a section for each subcommand.
 std::vector<std::string> with_config_file(const Comm& comm, const std::vector<std::string>& words);
 

@@ -1,6 +1,7 @@
 #pragma once
-// What tells a user of options: --help that fits a screen, the word that was meant, the man page, completion in a shell. All
-// of it comes from the options that the commands declare.
+// The texts that tell a user of options: --help that fits a screen, the word that a misspelt one was meant to
+// be, the manual page, and completion in a shell. All of them come from the options that the commands
+// declare.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -8,11 +9,12 @@
 
 namespace coseg {
 
-/// --help shows the groups that every user needs and names the others, --help-all shows all. Applies to `app` alone.
+/// Makes --help show the groups that every user needs and name the others, and --help-all show all. Applies
+/// to `app` alone.
 void fold_help(CLI::App& app, const std::vector<std::string>& groups_always_shown);
 
-/// Throws CLI::ParseError for the first word that looks like an option and is none of the command's, with the option that
-/// was probably meant. words: the command's own, it first.
+/// Throws CLI::ParseError for the first word that looks like an option and is none of the command's, and
+/// names the option that was probably meant. `words` are those of the command, beginning with its name.
 void refuse_unknown_options(const CLI::App& command, const std::vector<std::string>& words);
 
 /// A manual page in the language of man(7), section 1.

@@ -7,7 +7,7 @@
 
 namespace coseg {
 
-/// CLI::Range lets NaN pass.
+/// Refuses values that are not finite; CLI::Range lets NaN pass.
 inline const CLI::Validator finite_number(
     [](std::string& text) {
         double value = 0.0;

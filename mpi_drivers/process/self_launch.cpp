@@ -60,8 +60,8 @@ bool asks_for_help(const std::vector<std::string_view>& words) {
                        [](std::string_view w) { return w == "--help" || w == "-h"; });
 }
 
-/// On one machine: more ranks than Open MPI counts cores are fine, none is tied to a core that another program uses,
-/// and who is root has decided so already.
+/// On one machine: more ranks than Open MPI counts cores are fine, none is tied to a core that another
+/// program uses, and who is root has decided so already.
 void prepare_environment() {
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
