@@ -7,7 +7,7 @@ namespace coseg {
 
 namespace {
 
-/// A face without a working face takes the value of its stand-in, as labels do.
+/// A face without a working face takes the value of its label donor, as it takes its label.
 std::vector<double> per_input_face(const FaceMap& map, const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& areas) {
     const auto faces = static_cast<std::size_t>(map.input_faces);

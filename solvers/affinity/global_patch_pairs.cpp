@@ -28,11 +28,11 @@ void refuse_bad_pairs(const std::vector<Relation>& sorted, int patches) {
         const Relation& r = sorted[k];
         const std::string pair = std::to_string(r.patch_a) + " and " + std::to_string(r.patch_b);
         if (r.patch_a < 0 || r.patch_b >= patches || r.patch_a == r.patch_b) {
-            throw AgreedError(ExitCode::internal,
-                              "a relation of patches " + pair + " of " + std::to_string(patches));
+            throw AgreedError(ExitCode::internal, "the pair of patches " + pair + " is not within the " +
+                                                      std::to_string(patches) + " patches");
         }
         if (k > 0 && sorted[k - 1].patch_a == r.patch_a && sorted[k - 1].patch_b == r.patch_b) {
-            throw AgreedError(ExitCode::internal, "patches " + pair + " are related twice");
+            throw AgreedError(ExitCode::internal, "the pair of patches " + pair + " is given twice");
         }
     }
 }

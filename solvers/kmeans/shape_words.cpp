@@ -37,9 +37,9 @@ Eigen::Index agreed_dimension(const Comm& comm, const std::vector<ShapeWordInput
     agree(comm, [&] {
         for (const ShapeWordInput& mesh : local) {
             if (mesh.context->rows() == dims) continue;
-            throw Error(ExitCode::internal, "shape contexts of " + std::to_string(mesh.context->rows()) +
-                                                " and " + std::to_string(dims) +
-                                                " entries in one collection");
+            throw Error(ExitCode::internal, "shape contexts of one collection have " +
+                                                std::to_string(mesh.context->rows()) + " and " +
+                                                std::to_string(dims) + " entries");
         }
     });
     return dims;

@@ -55,9 +55,9 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
             throw Error(ExitCode::internal,
                         "coefficients, meshes and areas of the cut are of different lengths");
         }
-        if (options.starts.empty()) throw Error(ExitCode::internal, "a cut without a start");
+        if (options.starts.empty()) throw Error(ExitCode::internal, "the cut was given no start");
         if (asks_for_positions(options) && (input.positions == nullptr || input.positions->cols() != patches))
-            throw Error(ExitCode::internal, "a cut by positions without the position of every patch");
+            throw Error(ExitCode::internal, "a start of the cut uses positions, but not every patch has one");
     });
 }
 

@@ -18,13 +18,14 @@ namespace {
 void check(const FeatureMatrices& features, const DiffusionOptions& options) {
     const std::int64_t patches = features.columns();
     if (patches > options.most) {
-        throw Error(ExitCode::usage, "clusters of " + std::to_string(patches) +
-                                         " patches by descriptors alone need a dense affinity; " +
-                                         std::to_string(options.most) + " are the most: use fewer patches");
+        throw Error(ExitCode::usage,
+                    "clusters of " + std::to_string(patches) +
+                        " patches by descriptors alone need a dense affinity, which is limited to " +
+                        std::to_string(options.most) + " patches; use fewer patches");
     }
     if (options.parts < 1 || options.parts > patches)
-        throw Error(ExitCode::usage, std::to_string(options.parts) + " parts are asked of " +
-                                         std::to_string(patches) + " patches");
+        throw Error(ExitCode::usage, std::to_string(options.parts) + " parts are asked for, but there are " +
+                                         std::to_string(patches) + " patches; ask for fewer parts");
 }
 
 /// N x N, without its diagonal's rounding.

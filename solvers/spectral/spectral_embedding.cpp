@@ -378,7 +378,7 @@ SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinit
                                      const SpectralOptions& options, const std::vector<int>& mesh_of) {
     if (options.mesh_balance > 0.0 && (options.offset != 0.0 || std::ssize(mesh_of) != affinity.size)) {
         throw AgreedError(ExitCode::internal,
-                          "a balance of meshes needs a mesh for each patch and no offset");
+                          "a cut with mesh balance needs the mesh of each patch, and no offset");
     }
     const CutOperator op = cut_operator(comm, affinity, parts, options.offset);
     const int vectors = std::min(count, static_cast<int>(op.rows.size()));

@@ -46,7 +46,7 @@ double squared_distance_to_box(const Vector3d& p, const Vector3d& low, const Vec
 }  // namespace
 
 ClosestPointTree::ClosestPointTree(const TriMesh& mesh) : mesh_(mesh) {
-    if (mesh.face_count() == 0) throw Error(ExitCode::input, "the mesh has no faces to be near to");
+    if (mesh.face_count() == 0) throw Error(ExitCode::input, "a mesh without faces has no nearest point");
     FaceGeometry geometry = face_geometry(mesh);
     normals_ = std::move(geometry.normal);
     centroids_ = std::move(geometry.centroid);

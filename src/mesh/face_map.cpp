@@ -57,7 +57,7 @@ int end_of_chain(const FaceMap& map, int face) {
         face = next;
     }
     throw Error(ExitCode::internal,
-                "the stand-in of input face " + std::to_string(face) + " leads to no labelled face");
+                "the label donor of input face " + std::to_string(face) + " leads to no labelled face");
 }
 
 }  // namespace

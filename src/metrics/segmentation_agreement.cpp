@@ -115,7 +115,8 @@ SegmentationAgreement segmentation_agreement(const TriMesh& mesh, const FaceGeom
                                              const std::vector<int>& answer) {
     const auto faces = static_cast<std::size_t>(mesh.face_count());
     if (reference.size() != faces || answer.size() != faces)
-        throw Error(ExitCode::internal, "two segmentations are compared that are not both of the mesh");
+        throw Error(ExitCode::internal,
+                    "a segmentation to compare has not one number for each face of the mesh");
     const Overlaps overlaps = overlaps_of(geometry.area, reference, answer);
     const double total = geometry.total_area;
     SegmentationAgreement agreement;
