@@ -187,15 +187,4 @@ std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& grap
     return patch;
 }
 
-std::vector<std::vector<int>> oversegment_all(const FaceGeometry& geometry, const DualGraph& graph,
-                                              const OversegmentationOptions& options, int count,
-                                              std::uint64_t seed) {
-    std::vector<std::vector<int>> all;
-    for (int k = 0; k < count; ++k) {
-        all.push_back(
-            oversegment(geometry, graph, options, hash_words({seed, static_cast<std::uint64_t>(k)})));
-    }
-    return all;
-}
-
 }  // namespace coseg

@@ -263,12 +263,4 @@ GeodesicTable geodesic_table(const TriMesh& mesh, const FaceGeometry& geometry, 
     return table;
 }
 
-Eigen::VectorXf geodesic_distances(const TriMesh& mesh, const DualGraph& graph, int source_vertex) {
-    const SurfaceGraph surface = surface_graph(mesh, graph);
-    std::vector<float> distance(static_cast<std::size_t>(surface.node_count()), infinity);
-    const std::array<PathSource, 1> source{{{source_vertex, 0.0F}}};
-    lower_distances(surface, source, distance);
-    return Eigen::Map<const Eigen::VectorXf>(distance.data(), mesh.vertex_count());
-}
-
 }  // namespace coseg

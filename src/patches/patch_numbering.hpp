@@ -15,7 +15,6 @@ class PatchNumbering {
     /// patches[m * oversegmentations + s]: patches in over-segmentation s of mesh m.
     PatchNumbering(int oversegmentations, const std::vector<int>& patches);
 
-    [[nodiscard]] int mesh_count() const noexcept { return mesh_count_; }
     [[nodiscard]] int oversegmentations() const noexcept { return oversegmentations_; }
     [[nodiscard]] int patch_count() const noexcept { return first_.back(); }
 
