@@ -10,8 +10,8 @@
 
 #include "solvers/mesh_scope/mesh_scope_column.hpp"
 #include "solvers/mesh_scope/mesh_scope_pass.hpp"
-#include "solvers/numeric/exact_sum.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -370,7 +370,7 @@ SolveResult solve_mesh_scope(const Comm& comm, const SubspaceProblem& problem, c
     SolveResult result;
     const BlockRange owned = block_range(problem.size(), comm.size(), comm.rank(), coefficient_tile);
     result.coefficients = {problem.size(), owned, problem.feature_count(), {0}, {}, {}};
-    ExactSum sums(0, 1.0, 2);
+    ExactSum sums(2);
     Totals totals;
     bool stopped = false;
     SolverCheckpoint* checkpoint = options.checkpoint;

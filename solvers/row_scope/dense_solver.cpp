@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "solvers/numeric/blas.hpp"
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/subspace/dual_bound.hpp"
 #include "solvers/subspace/feature_stack.hpp"
 #include "solvers/subspace/group_shrinkage.hpp"
 #include "solvers/subspace/spectral_projected_gradient.hpp"
 #include "solvers/subspace/stopping_rule.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 

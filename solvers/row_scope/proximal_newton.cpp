@@ -35,7 +35,7 @@ ProximalNewton::ProximalNewton(const Comm& comm, const SubspaceProblem& problem,
       exchange_(exchange),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
       newton_(comm, problem, stack, fits, offset, exchange),
-      sums_(0, 1.0, scalar_count) {}
+      sums_(scalar_count) {}
 
 void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double>& product) const {
     product.resize(vector.size());

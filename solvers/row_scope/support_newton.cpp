@@ -30,7 +30,7 @@ SupportNewton::SupportNewton(const Comm& comm, const SubspaceProblem& problem, c
       fits_(fits),
       offset_(offset),
       exchange_(exchange),
-      sums_(0, 1.0, 1) {
+      sums_(1) {
     blocks_.resize(fits.size() * static_cast<std::size_t>(stack.features));
     inverse_norm_.resize(offset.back() / static_cast<std::size_t>(stack.features));
 }

@@ -7,10 +7,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/row_scope/row_exchange.hpp"
 #include "solvers/subspace/row_scope_column.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 

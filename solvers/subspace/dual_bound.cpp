@@ -25,7 +25,7 @@ PaperDualBound::PaperDualBound(const FeatureStack& stack, double alpha, double b
       row_sums_(row_sums),
       raise_(row_sums.size(), 0.0),
       excess_(static_cast<std::size_t>(stack.features)),
-      sums_(0, 1.0, scalar_count) {}
+      sums_(scalar_count) {}
 
 void PaperDualBound::begin_tile(int first, int width, const double* reconstruction) {
     width_ = width;

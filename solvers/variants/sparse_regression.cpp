@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "solvers/numeric/blas.hpp"
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/subspace/feature_stack.hpp"
 #include "solvers/subspace/row_scope_column.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -377,7 +377,7 @@ SolveResult solve_sparse_regression(const Comm& comm, const SubspaceProblem& pro
     SolveResult result;
     const BlockRange owned = block_range(problem.size(), comm.size(), comm.rank(), coefficient_tile);
     result.coefficients = {problem.size(), owned, 1, {0}, {}, {}};
-    ExactSum sums(0, 1.0, 2);
+    ExactSum sums(2);
     Totals totals;
     for (std::int64_t begin = owned.begin; begin < owned.end; begin += coefficient_tile) {
         std::vector<std::vector<ColumnRound>> rounds;

@@ -1,6 +1,5 @@
 #include "src/parallel/comm.hpp"
 
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -103,20 +102,6 @@ void agree(const Comm& comm, const std::function<void()>& step) {
     sentence.resize(static_cast<std::size_t>(header[1]));
     MPI_Bcast(sentence.data(), header[1], MPI_CHAR, first, comm.raw());
     throw AgreedError(static_cast<ExitCode>(header[0]), sentence);
-}
-
-FixedPointSum::FixedPointSum(std::size_t size, double bound)
-    : scale_(std::ldexp(1.0, 40 - (bound > 0.0 ? std::ilogb(bound) + 1 : 0))), ticks_(size, 0) {}
-
-void FixedPointSum::add(std::size_t index, double value) { ticks_[index] += std::llround(value * scale_); }
-
-std::vector<double> FixedPointSum::all_sum(const Comm& comm) const {
-    std::vector<std::int64_t> total(ticks_.size());
-    MPI_Allreduce(ticks_.data(), total.data(), static_cast<int>(ticks_.size()), MPI_INT64_T, MPI_SUM,
-                  comm.raw());
-    std::vector<double> sums(total.size());
-    for (std::size_t i = 0; i < total.size(); ++i) sums[i] = static_cast<double>(total[i]) / scale_;
-    return sums;
 }
 
 std::vector<double> all_gather(const Comm& comm, std::span<const double> local) {

@@ -45,21 +45,6 @@ class Comm {
 /// lowest failing rank. `step` must not communicate. Collective.
 void agree(const Comm& comm, const std::function<void()>& step);
 
-/// Sums of doubles that do not depend on the number of ranks or on the order of summation: each addend is rounded
-/// to a multiple of 2^-40 times the power of two above `bound` and added as an integer.
-/// |each addend| <= bound must hold, and at most 2^20 addends may be summed in all. Collective use: see all_sum.
-class FixedPointSum {
-  public:
-    FixedPointSum(std::size_t size, double bound);
-    void add(std::size_t index, double value);
-    /// The sums over all ranks, on all ranks. Collective; every rank must have been given the same size and bound.
-    [[nodiscard]] std::vector<double> all_sum(const Comm& comm) const;
-
-  private:
-    double scale_;
-    std::vector<std::int64_t> ticks_;
-};
-
 /// Concatenation over ranks, in the order of ranks, on all ranks. Collective.
 std::vector<double> all_gather(const Comm& comm, std::span<const double> local);
 std::vector<int> all_gather(const Comm& comm, std::span<const int> local);

@@ -2,11 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "src/base/seeded_random.hpp"
-#include "src/parallel/block_range.hpp"
-
 namespace coseg {
 namespace {
 
@@ -27,24 +22,6 @@ TEST(Agree, EveryRankThrowsTheErrorOfTheLowestFailingRank) {
 TEST(Agree, PassesWhereNoRankFails) {
     const Comm comm(MPI_COMM_WORLD);
     EXPECT_NO_THROW(agree(comm, [] {}));
-}
-
-TEST(FixedPointSum, SameBitsOnAnyNumberOfRanks) {
-    const Comm comm(MPI_COMM_WORLD);
-    constexpr int n = 1000;
-    const auto addend = [](int i) { return normal_of(hash_words({7, static_cast<std::uint64_t>(i)})); };
-    FixedPointSum alone(1, 8.0);
-    FixedPointSum shared(1, 8.0);
-    double plain = 0.0;
-    for (int i = 0; i < n; ++i) {
-        alone.add(0, addend(i));
-        plain += addend(i);
-    }
-    const BlockRange mine = block_range(n, comm.size(), comm.rank());
-    for (auto i = mine.end; i-- > mine.begin;) shared.add(0, addend(static_cast<int>(i)));
-    const Comm self(MPI_COMM_SELF);
-    EXPECT_EQ(shared.all_sum(comm)[0], alone.all_sum(self)[0]);
-    EXPECT_NEAR(shared.all_sum(comm)[0], plain, n * std::ldexp(1.0, 4 - 40));
 }
 
 TEST(AllGather, ConcatenatesInRankOrder) {

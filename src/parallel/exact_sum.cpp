@@ -1,4 +1,4 @@
-#include "solvers/numeric/exact_sum.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -78,7 +78,7 @@ void ExactSum::clear() {
 }
 
 void ExactSum::add_field(std::size_t index, double value) {
-    if (!(value <= largest_addend_)) {
+    if (!(std::abs(value) <= largest_addend_)) {
         addend_overflowed_ = true;
         return;
     }
@@ -94,12 +94,11 @@ void ExactSum::add_scalar(std::size_t index, double value) {
 }
 
 void ExactSum::pack() {
-    // A rank's own part is cut off at the limit: the total then exceeds the limit however the columns are
-    // owned.
+    // A rank's own part is cut off at the limits, so that the message cannot overflow.
     const Ticks limit = Ticks{1} << (fraction_bits + range_bits);
     message_[0] = addend_overflowed_ ? 1 : 0;
     for (std::size_t i = 0; i < ticks_.size(); ++i) {
-        const Ticks part = std::min(ticks_[i], limit);
+        const Ticks part = std::clamp(ticks_[i], -limit, limit);
         message_[1 + 2 * i] = static_cast<std::int64_t>(part >> low_bits);
         message_[2 + 2 * i] = static_cast<std::int64_t>(part) & low_mask;
     }
@@ -113,7 +112,7 @@ void ExactSum::unpack() {
     const double unit = std::ldexp(1.0, exponent_ - fraction_bits);
     for (std::size_t i = 0; i < ticks_.size(); ++i) {
         const Ticks total = (static_cast<Ticks>(message_[1 + 2 * i]) << low_bits) + message_[2 + 2 * i];
-        if (total >= limit) overflowed_ = true;
+        if (total >= limit || total <= -limit) overflowed_ = true;
         field_[i] = static_cast<double>(total) * unit;
     }
     const std::span<std::int64_t> limbs = std::span(message_).subspan(1 + 2 * ticks_.size());
