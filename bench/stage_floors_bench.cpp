@@ -18,7 +18,6 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -34,6 +33,7 @@
 #include "solvers/oversegmentation/face_agglomeration.hpp"
 #include "solvers/oversegmentation/oversegmentation.hpp"
 #include "solvers/oversegmentation/weighted_graph.hpp"
+#include "src/base/stopwatch.hpp"
 #include "src/descriptors/shape_context.hpp"
 #include "src/descriptors/shape_diameter.hpp"
 #include "src/geodesics/geodesic.hpp"
@@ -53,9 +53,9 @@ constexpr int patches = 50;
 constexpr int solves_of_a_vector = 20;  // the size of the Lanczos basis
 
 double seconds_of(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
+    const coseg::Stopwatch clock;
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return clock.seconds();
 }
 
 struct Stage {

@@ -79,8 +79,8 @@ class MeshAssignment {
         return search_active(search);
     }
 
-    /// Adds the sum of the points of each word (d x K) and their numbers (K), each rounded to a multiple of `unit`, to
-    /// totals[0 .. (d + 1) K).
+    /// Adds the sum of the points of each word (d x K) and their numbers (K), each rounded to a multiple of
+    /// `unit`, to totals[0 .. (d + 1) K).
     void add_sums(Eigen::Index words, double unit, ExactSum& totals) const {
         const Eigen::Index dims = mesh_.points->rows();
         Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(dims + 1, words);
@@ -129,8 +129,8 @@ SumBounds bounds_of_sums(const Comm& comm, const std::vector<WordedPoints>& loca
 void move_to_means(const Comm& comm, const std::vector<MeshAssignment>& meshes, const SumBounds& bounds,
                    Eigen::MatrixXf& words) {
     const Eigen::Index dims = words.rows();
-    // Rounding each mesh's sums to this unit, a power of two, is far below the single precision of the words, but their
-    // last bits rest on it, and with them the labels of every earlier run.
+    // Rounding each mesh's sums to this unit, a power of two, is far below the single precision of the words,
+    // but their last bits rest on it, and with them the labels of every earlier run.
     const double unit = std::ldexp(1.0, std::ilogb(bounds.of_a_mesh) + 1 - 40);
     ExactSum totals(at((dims + 1) * words.cols()), bounds.of_all, 0);
     for (const MeshAssignment& mesh : meshes) mesh.add_sums(words.cols(), unit, totals);

@@ -11,6 +11,7 @@
 #include "solvers/mesh_scope/mesh_scope_column.hpp"
 #include "solvers/mesh_scope/mesh_scope_pass.hpp"
 #include "src/base/index.hpp"
+#include "src/base/stopwatch.hpp"
 #include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
@@ -55,8 +56,7 @@ class MeshScopeSolver {
           meshes_(sort_by_mesh(problem.mesh_of)),
           stack_(stack_features(comm, problem, meshes_.order)),
           pass_(comm, stack_, meshes_, penalties_),
-          allowed_meshes_(problem.allowed_meshes),
-          start_(MPI_Wtime()) {}
+          allowed_meshes_(problem.allowed_meshes) {}
 
     /// The columns [begin, end) of the problem, each solved; a function of these columns alone.
     SolvedTile solve_tile(std::int64_t begin, std::int64_t end);
@@ -69,7 +69,7 @@ class MeshScopeSolver {
   private:
     [[nodiscard]] Column start_column(std::int64_t patch) const;
     [[nodiscard]] std::vector<int> allowed_groups(int mesh) const;
-    [[nodiscard]] bool out_of_time() const { return MPI_Wtime() - start_ >= options_.max_seconds; }
+    [[nodiscard]] bool out_of_time() const { return clock_.seconds() >= options_.max_seconds; }
     int solve_batch(std::span<Column*> batch, const std::vector<int>& allowed);
     void judge(Column& column, const ColumnVerdict& verdict) const;
     bool add_violators(Column& column, const ColumnVerdict& verdict) const;
@@ -82,7 +82,7 @@ class MeshScopeSolver {
     FeatureStack stack_;
     MeshScopePass pass_;
     const std::vector<std::vector<int>>& allowed_meshes_;
-    double start_;
+    Stopwatch clock_;
     bool timed_out_ = false;
 };
 

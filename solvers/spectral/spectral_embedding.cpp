@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
+#include "src/base/text.hpp"
 
 namespace coseg {
 
@@ -238,12 +238,10 @@ void refuse_unconverged(EPS solver, int wanted, const Progress& progress) {
     check(EPSGetConverged(solver, &converged), "EPSGetConverged");
     check(EPSGetIterationNumber(solver, &iterations), "EPSGetIterationNumber");
     if (reason > 0 && converged >= wanted) return;
-    char residual[32];
-    std::snprintf(residual, sizeof residual, "%.3g", progress.residual);
     throw Error(ExitCode::not_converged,
                 "the cut's eigenvectors did not converge: " + std::to_string(converged) + " of " +
                     std::to_string(wanted) + " after " + std::to_string(iterations) +
-                    " restarts, the next with residual " + residual +
+                    " restarts, the next with residual " + significant(progress.residual) +
                     "; give the solver a larger basis (-- -eps_ncv 200)");
 }
 

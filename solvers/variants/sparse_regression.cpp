@@ -9,6 +9,7 @@
 #include "solvers/subspace/feature_stack.hpp"
 #include "solvers/subspace/row_scope_column.hpp"
 #include "src/base/index.hpp"
+#include "src/base/stopwatch.hpp"
 #include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
@@ -58,11 +59,7 @@ struct Survey {
 class SparseRegression {
   public:
     SparseRegression(const SubspaceProblem& problem, Sign sign, const SolveOptions& options)
-        : stack_(stack_features(problem)),
-          beta_(problem.beta),
-          sign_(sign),
-          options_(options),
-          start_(MPI_Wtime()) {}
+        : stack_(stack_features(problem)), beta_(problem.beta), sign_(sign), options_(options) {}
 
     std::vector<Column> solve_tile(std::int64_t begin, std::int64_t end);
     [[nodiscard]] const FeatureStack& stack() const noexcept { return stack_; }
@@ -89,7 +86,7 @@ class SparseRegression {
     double beta_;
     Sign sign_;
     const SolveOptions& options_;
-    double start_;
+    Stopwatch clock_;
     int passes_ = 0;
     bool timed_out_ = false;
 };
@@ -289,7 +286,7 @@ void SparseRegression::solve_inside(Column& column) const {
             column.limited = true;
             break;
         }
-        if (MPI_Wtime() - start_ >= options_.max_seconds) break;
+        if (clock_.seconds() >= options_.max_seconds) break;
     }
     measure(column);
 }
@@ -318,7 +315,7 @@ std::vector<Column> SparseRegression::solve_tile(std::int64_t begin, std::int64_
                 solve_inside(column);
             }
         }
-        timed_out_ = timed_out_ || MPI_Wtime() - start_ >= options_.max_seconds;
+        timed_out_ = timed_out_ || clock_.seconds() >= options_.max_seconds;
         std::erase_if(open, [](const Column* column) { return !column->open; });
     }
     passes_ = std::max(passes_, passes);

@@ -15,8 +15,8 @@ class RayScene {
     /// Whether rays may bring a filter of their own; looking for one costs every ray a little.
     enum class Filter { none, per_ray };
 
-    /// points: 3 x V, corners: 3 x F. Hits are tested in Embree's robust mode, which misses no ray between two
-    /// triangles that share an edge. Throws Error(internal) if Embree cannot prepare the scene.
+    /// points: 3 x V, corners: 3 x F. Hits are tested in Embree's robust mode, which misses no ray between
+    /// two triangles that share an edge. Throws Error(internal) if Embree cannot prepare the scene.
     RayScene(const Eigen::Matrix3Xf& points, const Eigen::Matrix3Xi& corners, Filter filter);
 
     ~RayScene() = default;
@@ -39,8 +39,8 @@ class RayScene {
     std::unique_ptr<RTCSceneTy, SceneRelease> scene_;
 };
 
-/// Ray number i of `rays`, one of Embree's packets (RTCRay8, RTCRay16), from `from` along `direction` between the
-/// distances `near` and `far`.
+/// Ray number i of `rays`, one of Embree's packets (RTCRay8, RTCRay16), from `from` along `direction` between
+/// the distances `near` and `far`.
 template <class Rays>
 void set_ray(Rays& rays, int i, const Eigen::Vector3f& from, const Eigen::Vector3f& direction, float near,
              float far) {

@@ -9,13 +9,13 @@
 
 namespace coseg {
 
-/// A field of many sums of one order of magnitude (the row sums of W) and a few scalars of any (the objective),
-/// reduced together.
+/// A field of many sums of one order of magnitude (the row sums of W) and a few scalars of any (the
+/// objective), reduced together.
 ///
-/// The field is kept as integers: multiples of 2^-80 times the power of two above `field_scale`, 16 bytes a sum.
-/// Addends are rounded towards zero to such a multiple, and a sum beyond 2^12 times that power makes `overflowed()`
-/// true. The scalars are summed exactly over the whole range of double, in 544 bytes each, and rounded at the end.
-/// Neither the order of addition nor the number of ranks shows in either.
+/// The field is kept as integers: multiples of 2^-80 times the power of two above `field_scale`, 16 bytes a
+/// sum. Addends are rounded towards zero to such a multiple, and a sum beyond 2^12 times that power makes
+/// `overflowed()` true. The scalars are summed exactly over the whole range of double, in 544 bytes each, and
+/// rounded at the end. Neither the order of addition nor the number of ranks shows in either.
 class ExactSum {
   public:
     /// `field_size` sums of order `field_scale` (> 0; the same on every rank) and `scalars` scalars.
