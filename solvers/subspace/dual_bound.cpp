@@ -91,8 +91,9 @@ void PaperDualBound::end_tile() {
 }
 
 double PaperDualBound::raised_cost(const Comm& comm) {
-    MPI_Allreduce(MPI_IN_PLACE, raise_.data(), static_cast<int>(raise_.size()), MPI_DOUBLE, MPI_MAX,
-                  comm.raw());
+    in_messages(std::ssize(raise_), [&](std::int64_t first, int count) {
+        MPI_Allreduce(MPI_IN_PLACE, raise_.data() + first, count, MPI_DOUBLE, MPI_MAX, comm.raw());
+    });
     double squares = 0.0;
     for (std::size_t entry = 0; entry < raise_.size(); ++entry) {
         const double price = 2.0 * lambda_ * row_sums_[entry] + raise_[entry];

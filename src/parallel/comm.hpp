@@ -3,8 +3,10 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,10 +47,21 @@ class Comm {
 /// lowest failing rank. `step` must not communicate. Collective.
 void agree(const Comm& comm, const std::function<void()>& step);
 
-/// Concatenation over ranks, in the order of ranks, on all ranks. Collective.
+/// MPI 3 counts the values of a message in int; what is longer goes in several messages.
+inline constexpr std::int64_t longest_message = std::numeric_limits<int>::max();
+
+/// Calls send(first, count) for consecutive runs of at most `longest` of `total` values.
+template <class Send>
+void in_messages(std::int64_t total, Send&& send, std::int64_t longest = longest_message) {
+    for (std::int64_t first = 0; first < total; first += longest)
+        send(first, static_cast<int>(std::min(longest, total - first)));
+}
+
+/// Concatenation over ranks, in the order of ranks, on all ranks; of any length. Collective.
 std::vector<double> all_gather(const Comm& comm, std::span<const double> local);
 std::vector<int> all_gather(const Comm& comm, std::span<const int> local);
-std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local);
+std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local,
+                                     std::int64_t longest = longest_message);
 
 /// Texts of all ranks, in the order of ranks, on all ranks. Collective.
 std::vector<std::string> all_gather_texts(const Comm& comm, const std::vector<std::string>& local);

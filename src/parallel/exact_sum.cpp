@@ -123,8 +123,9 @@ void ExactSum::unpack() {
 
 void ExactSum::reduce(const Comm& comm) {
     pack();
-    MPI_Allreduce(MPI_IN_PLACE, message_.data(), static_cast<int>(message_.size()), MPI_INT64_T, MPI_SUM,
-                  comm.raw());
+    in_messages(std::ssize(message_), [&](std::int64_t first, int count) {
+        MPI_Allreduce(MPI_IN_PLACE, message_.data() + first, count, MPI_INT64_T, MPI_SUM, comm.raw());
+    });
     unpack();
 }
 

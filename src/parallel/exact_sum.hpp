@@ -27,7 +27,7 @@ class ExactSum {
     void add_field(std::size_t index, double value);
     void add_scalar(std::size_t index, double value);
 
-    /// One MPI_Allreduce. Collective; every rank must have been given the same sizes and scale.
+    /// One reduction over the ranks. Collective; every rank must have been given the same sizes and scale.
     void reduce(const Comm& comm);
 
     /// Valid after reduce(), on all ranks.

@@ -32,5 +32,29 @@ TEST(AllGather, ConcatenatesInRankOrder) {
     EXPECT_EQ(all_gather(comm, std::span<const int>(mine)), expected);
 }
 
+TEST(AllGather, GivesTheSameInMessagesOfAnyLength) {
+    const Comm comm(MPI_COMM_WORLD);
+    std::vector<std::int64_t> mine;
+    for (int k = 0; k < 5 + 3 * comm.rank(); ++k) mine.push_back(100 * comm.rank() + k);
+    const std::span<const std::int64_t> local(mine);
+    const std::vector<std::int64_t> whole = all_gather(comm, local);
+    EXPECT_EQ(std::ssize(whole), 5 * comm.size() + 3 * comm.size() * (comm.size() - 1) / 2);
+    for (const std::int64_t longest : {1, 3, 5, 1000}) EXPECT_EQ(all_gather(comm, local, longest), whole);
+}
+
+TEST(InMessages, CoverValuesBeyondTheRangeOfInt) {
+    constexpr std::int64_t total = 5'000'000'000;
+    std::int64_t next = 0;
+    int messages = 0;
+    in_messages(total, [&](std::int64_t first, int count) {
+        EXPECT_EQ(first, next);
+        next = first + count;
+        ++messages;
+    });
+    EXPECT_EQ(next, total);
+    EXPECT_EQ(messages, 3);
+    in_messages(0, [](std::int64_t, int) { FAIL() << "nothing is sent"; });
+}
+
 }  // namespace
 }  // namespace coseg
