@@ -54,8 +54,7 @@ COSEG_VECTOR_CLONES void add_points(const float* points, std::span<const int> wo
 /// The words of one mesh's points and a lower bound of each point's distance to all other words.
 class MeshAssignment {
   public:
-    explicit MeshAssignment(WordedPoints& mesh)
-        : mesh_(mesh), others_(static_cast<std::size_t>(mesh.points->cols()), 0.0F) {
+    explicit MeshAssignment(WordedPoints& mesh) : mesh_(mesh), others_(at(mesh.points->cols()), 0.0F) {
         mesh_.word.assign(others_.size(), 0);
     }
 
@@ -94,7 +93,7 @@ class MeshAssignment {
         search.search(*mesh_.points, active_, nearest_);
         std::int64_t changed = 0;
         for (std::size_t k = 0; k < active_.size(); ++k) {
-            const auto i = static_cast<std::size_t>(active_[k]);
+            const auto i = at(active_[k]);
             if (mesh_.word[i] != nearest_[k].word) ++changed;
             mesh_.word[i] = nearest_[k].word;
             others_[i] = nearest_[k].second_distance;

@@ -74,7 +74,7 @@ void WordSearch::search(const Eigen::MatrixXf& points, std::span<const int> colu
                             static_cast<int>(block_points));
         find_minima(inner_products, square_norms_, minima);
         for (Eigen::Index i = 0; i < count; ++i) {
-            const auto k = static_cast<std::size_t>(i);
+            const auto k = at(i);
             const float norm = square_norm(block.data() + i * dims, dims);
             // What rounding of the three terms may hide, so that second_distance stays a bound.
             const float rounding = 4e-6F * (norm + largest_square_norm_);

@@ -90,7 +90,7 @@ Column MeshScopeSolver::start_column(std::int64_t patch) const {
     Column column;
     column.working.column = meshes_.place[at(patch)];
     column.working.group_begin = {0};
-    column.reconstruction.assign(static_cast<std::size_t>(stack_.dimension), 0.0);
+    column.reconstruction.assign(at(stack_.dimension), 0.0);
     column.group_sums.assign(meshes_.group_mesh.size(), 0.0);
     for (int k = 0; k < stack_.dimension; ++k) {
         const double x = stack_.columns(k, column.working.column);
@@ -213,7 +213,7 @@ bool MeshScopeSolver::add_violators(Column& column, const ColumnVerdict& verdict
         }
     }
     if (rows.empty()) return false;
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     WorkingColumn& working = column.working;
     const std::vector<int> old_rows = std::move(working.rows);
     const std::vector<double> old_weights = std::move(working.weights);
@@ -261,7 +261,7 @@ void MeshScopeSolver::solve_working_set(Column& column) {
 
 /// Appends the column's nonzero pairs, rows back in the problem's order.
 void MeshScopeSolver::append_column(const Column& column, SolvedTile& tile) const {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     std::vector<std::pair<int, std::size_t>> entries;
     for (std::size_t p = 0; p < column.working.rows.size(); ++p) {
         const auto begin = column.working.weights.begin() + static_cast<std::ptrdiff_t>(p * features);
@@ -286,9 +286,9 @@ void make_room(const SolvedTile& tile, SparseCoefficients& sparse) {
     const auto columns = static_cast<double>(sparse.offsets.size() + tile.offsets.size() - 2);
     const double expected =
         1.2 * static_cast<double>(pairs) / columns * static_cast<double>(sparse.columns.size());
-    const std::size_t room = std::max(pairs + pairs / 4, static_cast<std::size_t>(expected));
+    const std::size_t room = std::max(pairs + pairs / 4, at(expected));
     sparse.rows.reserve(room);
-    sparse.values.reserve(room * static_cast<std::size_t>(sparse.features));
+    sparse.values.reserve(room * at(sparse.features));
 }
 
 /// Takes a finished tile into this rank's part of the answer.

@@ -64,11 +64,9 @@ class DenseModel {
 
 DensePoint zero_point(const FeatureStack& stack, BlockRange columns) {
     DensePoint point;
-    point.weights.assign(static_cast<std::size_t>(stack.features),
-                         Eigen::MatrixXd::Zero(stack.size, columns.size()));
+    point.weights.assign(at(stack.features), Eigen::MatrixXd::Zero(stack.size, columns.size()));
     point.residual = -stack.columns.middleCols(columns.begin, columns.size());
-    point.row_sums.assign(static_cast<std::size_t>(stack.features) * static_cast<std::size_t>(stack.size),
-                          0.0);
+    point.row_sums.assign(at(stack.features) * at(stack.size), 0.0);
     point.objective = stack.squared_norm;
     return point;
 }
@@ -88,7 +86,7 @@ DenseModel::DenseModel(const Comm& comm, const SubspaceProblem& problem, const F
 
 /// The prox of W - step G for the columns [begin, end) of the owned ones.
 void DenseModel::shrink_tile(std::int64_t begin, std::int64_t end, double step) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     std::vector<double> pair(features);
     tile_distance2_ = tile_norms_ = tile_entries_ = 0.0;
     for (std::int64_t c = begin; c < end; ++c) {
@@ -122,8 +120,7 @@ void DenseModel::measure_tile(std::int64_t begin, std::int64_t end) {
         for (int i = 0; i < n; ++i) {
             double sum = 0.0;
             for (std::int64_t c = begin; c < end; ++c) sum += weights(i, c);
-            sums_.add_field(
-                static_cast<std::size_t>(i) * current_.weights.size() + static_cast<std::size_t>(h), sum);
+            sums_.add_field(at(i) * current_.weights.size() + at(h), sum);
         }
     }
     double tile_fit = 0.0;
@@ -202,7 +199,7 @@ void DenseModel::compute_gradient() {
 
 double DenseModel::lower_bound() {
     PaperDualBound bound(stack_, problem_.alpha, problem_.beta, problem_.lambda, current_.row_sums);
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     std::vector<double> scores(features);
     for (std::int64_t begin = 0; begin < owned(); begin += coefficient_tile) {
         const int width = static_cast<int>(std::min(coefficient_tile, owned() - begin));

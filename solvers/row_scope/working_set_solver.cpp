@@ -7,6 +7,7 @@
 #include "solvers/row_scope/working_set_model.hpp"
 #include "solvers/subspace/solver_checkpoint.hpp"
 #include "solvers/subspace/stopping_rule.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -37,7 +38,7 @@ bool is_zero(const RowScopeColumn& fit, std::size_t pair, std::size_t features) 
 /// Adds the rows `entering` (none of them in the set) and, if asked to, drops pairs that are zero.
 void update_fit(const FeatureStack& stack, int column, const std::vector<int>& entering, bool shrink,
                 RowScopeColumn& fit) {
-    const auto features = static_cast<std::size_t>(stack.features);
+    const auto features = at(stack.features);
     RowScopeColumn next;
     std::size_t old = 0, added = 0;
     while (old < fit.rows.size() || added < entering.size()) {
@@ -68,7 +69,7 @@ void update_working_set(const FeatureStack& stack, const PassFindings& findings,
 }
 
 SparseCoefficients nonzero_pairs(const FeatureStack& stack, const WorkingSet& working) {
-    const auto features = static_cast<std::size_t>(stack.features);
+    const auto features = at(stack.features);
     SparseCoefficients sparse{stack.size, working.columns, stack.features, {0}, {}, {}};
     for (const RowScopeColumn& fit : working.fits) {
         for (std::size_t p = 0; p < fit.rows.size(); ++p) {
@@ -267,8 +268,8 @@ SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, 
     const FeatureStack stack = stack_features(problem);
     WorkingSet working;
     working.columns = block_range(stack.size, comm.size(), comm.rank(), coefficient_tile);
-    working.fits.resize(static_cast<std::size_t>(working.columns.size()));
-    std::vector<double> prices(working.fits.size() * static_cast<std::size_t>(stack.features), 0.0);
+    working.fits.resize(at(working.columns.size()));
+    std::vector<double> prices(working.fits.size() * at(stack.features), 0.0);
     AllPairsPass pass(comm, problem, stack);
     StoppingRule rule(comm, options, stack.squared_norm);
     SolveResult result;

@@ -56,10 +56,9 @@ SparseRows plus_diagonal(const SparseRows& matrix, const std::vector<double>& di
 
 /// v_ij -> v_ij (q_i q_j): the product in parentheses keeps the matrix symmetric to the last bit.
 void scale_both_sides(SparseRows& matrix, const std::vector<double>& q) {
-    for (std::size_t r = 0; r < static_cast<std::size_t>(matrix.local_rows()); ++r) {
+    for (std::size_t r = 0; r < at(matrix.local_rows()); ++r) {
         const double row_factor = q[at(matrix.rows.begin) + r];
-        for (auto k = static_cast<std::size_t>(matrix.offsets[r]);
-             k < static_cast<std::size_t>(matrix.offsets[r + 1]); ++k) {
+        for (auto k = at(matrix.offsets[r]); k < at(matrix.offsets[r + 1]); ++k) {
             matrix.values[k] *= row_factor * q[at(matrix.columns[k])];
         }
     }
@@ -79,7 +78,7 @@ void refuse_too_few(std::size_t rows, int parts) {
                           "no two patches are similar enough to be linked, so there is nothing to "
                           "cut; lower alpha, beta or lambda, or raise the adjacency weight");
     }
-    if (rows < static_cast<std::size_t>(parts)) {
+    if (rows < at(parts)) {
         throw AgreedError(ExitCode::input,
                           std::to_string(parts) + " parts are asked for, but only " + std::to_string(rows) +
                               " patches are linked to others; ask for fewer parts or more patches");
@@ -91,13 +90,13 @@ CutOperator cut_operator(const Comm& comm, const SparseRows& affinity, int parts
     result.components = main_components(connected_components(comm, affinity), parts);
     result.rows = rows_of(result.components);
     refuse_too_few(result.rows.size(), parts);
-    const auto size = static_cast<std::size_t>(affinity.size);
+    const auto size = at(affinity.size);
     const std::vector<double> sums = row_sums_global(comm, affinity);
     result.degree.assign(size, 0.0);
     std::vector<double> inverse_root(size, 0.0);
     std::vector<double> aside(size, -2.0);
     for (const int row : result.rows) {
-        const auto i = static_cast<std::size_t>(row);
+        const auto i = at(row);
         result.degree[i] = sums[i] + 2.0 * offset;
         inverse_root[i] = 1.0 / std::sqrt(result.degree[i]);
         aside[i] = 0.0;
@@ -123,13 +122,12 @@ EigenPairs component_eigenpairs(const CutOperator& op) {
 
 /// Entry i: that of patch i in the unit indicator D^1/2 1_m of its mesh m; 0 where set aside.
 std::vector<double> mesh_indicators(const CutOperator& op, const std::vector<int>& mesh_of) {
-    std::vector<double> squares(
-        static_cast<std::size_t>(*std::max_element(mesh_of.begin(), mesh_of.end())) + 1, 0.0);
-    const auto mesh = [&](int i) { return static_cast<std::size_t>(mesh_of[at(i)]); };
+    std::vector<double> squares(at(*std::max_element(mesh_of.begin(), mesh_of.end())) + 1, 0.0);
+    const auto mesh = [&](int i) { return at(mesh_of[at(i)]); };
     for (const int i : op.rows) squares[mesh(i)] += op.degree[at(i)];
     std::vector<double> entries(op.degree.size(), 0.0);
     for (const int i : op.rows) {
-        const auto k = static_cast<std::size_t>(i);
+        const auto k = at(i);
         entries[k] = std::sqrt(op.degree[k] / squares[mesh(i)]);
     }
     return entries;
@@ -151,9 +149,8 @@ EigenPairs dense_eigenpairs(const Comm& comm, const CutOperator& op, int count,
                             const SpectralOptions& options, const std::vector<int>& mesh_of) {
     const SparseRows all = gather_rows(comm, op.matrix);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(all.size, all.size);
-    for (std::size_t r = 0; r < static_cast<std::size_t>(all.size); ++r) {
-        for (auto k = static_cast<std::size_t>(all.offsets[r]);
-             k < static_cast<std::size_t>(all.offsets[r + 1]); ++k) {
+    for (std::size_t r = 0; r < at(all.size); ++r) {
+        for (auto k = at(all.offsets[r]); k < at(all.offsets[r + 1]); ++k) {
             dense(static_cast<Eigen::Index>(r), all.columns[k]) = all.values[k];
         }
     }
@@ -294,7 +291,7 @@ EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, ServedProd
             product.serve();
         }
     });
-    found.values.resize(static_cast<std::size_t>(wanted));
+    found.values.resize(at(wanted));
     found.vectors.resize(static_cast<Eigen::Index>(op.degree.size()), wanted);
     MPI_Bcast(found.values.data(), wanted, MPI_DOUBLE, 0, comm.raw());
     for (Eigen::Index k = 0; k < wanted; ++k) {

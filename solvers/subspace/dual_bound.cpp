@@ -24,7 +24,7 @@ PaperDualBound::PaperDualBound(const FeatureStack& stack, double alpha, double b
       lambda_(lambda),
       row_sums_(row_sums),
       raise_(row_sums.size(), 0.0),
-      excess_(static_cast<std::size_t>(stack.features)),
+      excess_(at(stack.features)),
       sums_(scalar_count) {}
 
 void PaperDualBound::begin_tile(int first, int width, const double* reconstruction) {
@@ -46,8 +46,8 @@ void PaperDualBound::begin_tile(int first, int width, const double* reconstructi
 
 double PaperDualBound::check_pair(int c, int i, const double* scores, double rounding) {
     const std::size_t features = excess_.size();
-    const std::size_t row = static_cast<std::size_t>(i) * features;
-    const double* residual_norm = residual_norm_.data() + static_cast<std::size_t>(c) * features;
+    const std::size_t row = at(i) * features;
+    const double* residual_norm = residual_norm_.data() + at(c) * features;
     double squares = 0.0;
     double plain_squares = 0.0;
     for (std::size_t h = 0; h < features; ++h) {
@@ -67,8 +67,8 @@ double PaperDualBound::check_pair(int c, int i, const double* scores, double rou
 /// Both repairs shorten the excess at hand, of the given norm, to alpha.
 void PaperDualBound::repair(int c, int i, double norm) {
     const std::size_t features = excess_.size();
-    const std::size_t row = static_cast<std::size_t>(i) * features;
-    double* shift = shift_.data() + static_cast<std::size_t>(c) * features;
+    const std::size_t row = at(i) * features;
+    double* shift = shift_.data() + at(c) * features;
     const double cut = (1.0 - alpha_ / norm) + 4.0 * epsilon;
     for (std::size_t h = 0; h < features; ++h) {
         const double needed = excess_[h] * cut * (1.0 + 4.0 * epsilon);

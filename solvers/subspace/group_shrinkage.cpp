@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -47,7 +49,7 @@ double shrink_group(std::span<double> v, double step, double alpha, double beta)
 
 double exclusive_shrink(std::span<double> v, int features, double step, double alpha, double beta,
                         double lambda, ExclusiveShrinkScratch& scratch) {
-    const auto width = static_cast<std::size_t>(features);
+    const auto width = at(features);
     const std::size_t pairs = v.size() / width;
     scratch.norm.resize(pairs);
     scratch.sorted.clear();

@@ -123,7 +123,7 @@ std::vector<Survey> SparseRegression::look(const std::vector<Column*>& columns) 
     std::vector<double> residuals;
     for (const Column* column : columns)
         residuals.insert(residuals.end(), column->residual.begin(), column->residual.end());
-    std::vector<double> scores(static_cast<std::size_t>(chunk_rows) * columns.size());
+    std::vector<double> scores(at(chunk_rows) * columns.size());
     std::vector<Survey> surveys(columns.size());
     for (int begin = 0; begin < stack_.size; begin += chunk_rows) {
         const int end = std::min(begin + chunk_rows, stack_.size);

@@ -113,7 +113,7 @@ void agree(const Comm& comm, const std::function<void()>& step) {
         header[1] = static_cast<int>(sentence.size());
     }
     MPI_Bcast(header, 2, MPI_INT, first, comm.raw());
-    sentence.resize(static_cast<std::size_t>(header[1]));
+    sentence.resize(at(header[1]));
     MPI_Bcast(sentence.data(), header[1], MPI_CHAR, first, comm.raw());
     throw AgreedError(static_cast<ExitCode>(header[0]), sentence);
 }

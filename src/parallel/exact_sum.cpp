@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -26,7 +28,7 @@ void add_exactly(std::span<std::int64_t> limbs, double value) {
     std::uint64_t mantissa = bits & ((std::uint64_t{1} << 52U) - 1);
     if (biased != 0) mantissa |= std::uint64_t{1} << 52U;
     const int place = biased == 0 ? 0 : biased - 1;
-    const auto first = static_cast<std::size_t>(place / limb_bits);
+    const auto first = at(place / limb_bits);
     __extension__ typedef unsigned __int128 Wide;  // NOLINT(modernize-use-using)
     Wide shifted = static_cast<Wide>(mantissa) << (place % limb_bits);
     const bool negative = (bits >> 63U) != 0;

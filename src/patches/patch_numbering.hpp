@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 class PatchNumbering {
@@ -29,10 +31,7 @@ class PatchNumbering {
     [[nodiscard]] std::vector<int> mesh_of() const;
 
   private:
-    [[nodiscard]] std::size_t index(int m, int s) const {
-        return static_cast<std::size_t>(m) * static_cast<std::size_t>(oversegmentations_) +
-               static_cast<std::size_t>(s);
-    }
+    [[nodiscard]] std::size_t index(int m, int s) const { return at(m) * at(oversegmentations_) + at(s); }
     int oversegmentations_;
     int mesh_count_;
     std::vector<int> first_;
