@@ -180,8 +180,8 @@ double machine_gigaflops(const coseg::Comm& comm) {
     MPI_Barrier(comm.raw());
     const double start = coseg::PassClock::cpu_seconds();
     for (int r = 0; r < repeats; ++r) {
-        coseg::multiply_transposed(size, size, length, a.data(), length, a.data(), length, 0.0F, c.data(),
-                                   size);
+        coseg::multiply_transposed({a.data(), length, size, length}, {a.data(), length, size, length}, 0.0F,
+                                   {c.data(), size, size, size});
     }
     const double seconds = coseg::PassClock::cpu_seconds() - start;
     return sum_over_ranks(comm, 2e-9 * repeats * size * size * length / seconds) / comm.size();

@@ -160,14 +160,12 @@ void add_words(const coseg::Comm& comm, const std::vector<Eigen::MatrixXf>& cont
     double sum = 0.0;  // used below, so that nothing is left out as without effect
     for (const Eigen::MatrixXf& context : contexts) {
         const int faces = static_cast<int>(context.cols());
-        const int rows = static_cast<int>(context.rows());
         const Eigen::MatrixXf centres = context.leftCols(std::min(words, faces));
         Eigen::MatrixXf product(centres.cols(), faces);
         std::vector<float> copy(static_cast<std::size_t>(context.size()));
         stage.floor += seconds_of([&] {
-            coseg::multiply_transposed(static_cast<int>(centres.cols()), faces, rows, centres.data(), rows,
-                                       context.data(), rows, 0.0F, product.data(),
-                                       static_cast<int>(centres.cols()));
+            coseg::multiply_transposed(coseg::whole(centres), coseg::whole(context), 0.0F,
+                                       coseg::whole(product));
             for (int round = 0; round < coseg::word_rounds; ++round) {
                 std::memcpy(copy.data(), context.data(), copy.size() * sizeof(float));
                 sum += static_cast<double>(copy[static_cast<std::size_t>(round)]);

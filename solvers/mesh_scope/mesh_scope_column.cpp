@@ -49,9 +49,8 @@ double MeshScopeColumn::shrink_groups(double step) {
         const auto end = at(column_.group_begin[g + 1]) * features;
         for (std::size_t entry = begin; entry < end; ++entry)
             trial_weights_[entry] = column_.weights[entry] - step * gradient_[entry];
-        const double sum =
-            exclusive_shrink(std::span(trial_weights_).subspan(begin, end - begin), stack_.features, step,
-                             penalties_.alpha, penalties_.beta, penalties_.lambda, scratch_);
+        const double sum = exclusive_shrink(std::span(trial_weights_).subspan(begin, end - begin),
+                                            stack_.features, step, penalties_, scratch_);
         trial_group_sums_[g] = sum;
         penalty += penalties_.lambda * sum * sum + penalties_.alpha * sum;
     }

@@ -233,9 +233,11 @@ std::vector<ColumnVerdict> MeshScopePass::survey_all(const std::vector<PassColum
     for (const RowRun& run : row_runs(meshes_, allowed)) {
         for (int h = 0; h < stack_.features; ++h) {
             const int from = stack_.offset[at(h)];
-            multiply_transposed(run.end - run.begin, width, stack_.rows_of(h),
-                                stacked + static_cast<std::int64_t>(run.begin) * rows + from, rows,
-                                duals.data() + from, rows, Real{0}, buffer.data() + h * stride, chunk_rows);
+            const int height = stack_.rows_of(h);
+            const int run_rows = run.end - run.begin;
+            const Real* first = stacked + static_cast<std::int64_t>(run.begin) * rows + from;
+            multiply_transposed({first, height, run_rows, rows}, {duals.data() + from, height, width, rows},
+                                Real{0}, {buffer.data() + h * stride, run_rows, width, chunk_rows});
         }
         for (int c = 0; c < width; ++c) {
             score_rows<Real>(

@@ -186,12 +186,10 @@ void AllPairsPass::score(Tile& tile, int panel) const {
     for (int h = 0; h < stack_.features; ++h) {
         const auto feature = at(h);
         const int from = stack_.offset[feature];
-        score_pairs(panels_.rows(panel, from),
-                    tile.duals.data() + static_cast<std::ptrdiff_t>(from) * tile.columns(), stack_.rows_of(h),
-                    tile.groups, low_prices_.data() + feature * padded_rows_ + first,
-                    tile.errors.data() + static_cast<std::ptrdiff_t>(h) * tile.columns(),
-                    tile.scores.data() + static_cast<std::ptrdiff_t>(h) * tile.columns() * panel_rows,
-                    tile.squares.data());
+        const std::ptrdiff_t columns = tile.columns();
+        score_pairs({panels_.rows(panel, from), low_prices_.data() + feature * padded_rows_ + first},
+                    {tile.duals.data() + from * columns, tile.errors.data() + h * columns, tile.groups},
+                    stack_.rows_of(h), {tile.scores.data() + h * columns * panel_rows, tile.squares.data()});
     }
 }
 

@@ -114,8 +114,9 @@ void DenseModel::measure_tile(std::int64_t begin, std::int64_t end) {
     trial_.residual.middleCols(begin, width) = -stack_.columns.middleCols(columns_.begin + begin, width);
     for (int h = 0; h < stack_.features; ++h) {
         const Eigen::MatrixXd& weights = trial_.weights[at(h)];
-        multiply(stack_.rows_of(h), width, n, stack_.feature(h), rows, weights.data() + begin * n, n, 1.0,
-                 trial_.residual.data() + begin * rows + stack_.offset[at(h)], rows);
+        const int height = stack_.rows_of(h);
+        multiply({stack_.feature(h), height, n, rows}, {weights.data() + begin * n, n, width, n}, 1.0,
+                 {trial_.residual.data() + begin * rows + stack_.offset[at(h)], height, width, rows});
         if (problem_.lambda == 0.0) continue;
         for (int i = 0; i < n; ++i) {
             double sum = 0.0;
@@ -187,9 +188,10 @@ void DenseModel::compute_gradient() {
             current_.row_sums.data() + h, n, Eigen::InnerStride<>(stack_.features));
         for (std::int64_t begin = 0; begin < owned(); begin += coefficient_tile) {
             const int width = static_cast<int>(std::min(coefficient_tile, owned() - begin));
-            multiply_transposed(n, width, stack_.rows_of(h), stack_.feature(h), rows,
-                                current_.residual.data() + begin * rows + stack_.offset[at(h)], rows, 0.0,
-                                gradient.data() + begin * n, n);
+            const int height = stack_.rows_of(h);
+            const double* residual = current_.residual.data() + begin * rows + stack_.offset[at(h)];
+            multiply_transposed({stack_.feature(h), height, n, rows}, {residual, height, width, rows}, 0.0,
+                                {gradient.data() + begin * n, n, width, n});
         }
         for (std::int64_t c = 0; c < owned(); ++c) {
             gradient.col(c) = 2.0 * gradient.col(c) + 2.0 * problem_.lambda * sums;

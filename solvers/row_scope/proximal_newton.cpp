@@ -25,17 +25,16 @@ enum Scalar : std::size_t { value, gradient2, distance2, scalar_count };
 }  // namespace
 
 ProximalNewton::ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                               const std::vector<RowScopeColumn>& fits,
-                               const std::vector<std::size_t>& offset, const std::vector<double>& linear,
+                               const ColumnValues& columns, const std::vector<double>& linear,
                                RowExchange& exchange)
     : comm_(comm),
       stack_(stack),
-      fits_(fits),
-      offset_(offset),
+      fits_(columns.fits),
+      offset_(columns.offset),
       linear_(linear),
       exchange_(exchange),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
-      newton_(comm, problem, stack, fits, offset, exchange),
+      newton_(comm, problem, stack, columns, exchange),
       sums_(scalar_count) {}
 
 void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double>& product) const {

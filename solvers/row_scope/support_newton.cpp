@@ -22,17 +22,16 @@ constexpr double regularization = 1e-11;
 }  // namespace
 
 SupportNewton::SupportNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                             const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
-                             RowExchange& exchange)
+                             const ColumnValues& columns, RowExchange& exchange)
     : comm_(comm),
       problem_(problem),
       stack_(stack),
-      fits_(fits),
-      offset_(offset),
+      fits_(columns.fits),
+      offset_(columns.offset),
       exchange_(exchange),
       sums_(1) {
-    blocks_.resize(fits.size() * at(stack.features));
-    inverse_norm_.resize(offset.back() / at(stack.features));
+    blocks_.resize(fits_.size() * at(stack.features));
+    inverse_norm_.resize(offset_.back() / at(stack.features));
 }
 
 /// row_part_: by columns, 2 lambda times the sum of the vector over each pair's row.

@@ -47,7 +47,7 @@ WorkingSetModel::WorkingSetModel(const Comm& comm, const SubspaceProblem& proble
       offset_(value_offsets(working)),
       exchange_(comm, stack.size, stack.features, all_rows(working)),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
-      proximal_(comm, problem, stack, working.fits, offset_, linear_, exchange_),
+      proximal_(comm, problem, stack, {working.fits, offset_}, linear_, exchange_),
       sums_(scalar_count) {
     for (const RowScopeColumn& column : working.fits) {
         linear_.insert(linear_.end(), column.linear.begin(), column.linear.end());

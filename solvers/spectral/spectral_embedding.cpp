@@ -200,6 +200,7 @@ struct Progress {
     double residual = 0.0;
 };
 
+// NOLINTNEXTLINE(readability-function-size): SLEPc prescribes the parameters
 PetscErrorCode note_progress(EPS /*solver*/, PetscInt /*iteration*/, PetscInt converged,
                              PetscScalar* /*real*/, PetscScalar* /*imaginary*/, PetscReal* estimates,
                              PetscInt estimated, void* context) {
@@ -242,34 +243,40 @@ void refuse_unconverged(EPS solver, int wanted, const Progress& progress) {
                     "; give the solver a larger basis (-- -eps_ncv 200)");
 }
 
-/// On the root alone, while the other ranks serve products: the `wanted` largest eigenpairs orthogonal to
-/// `known`.
-EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const EigenPairs& known, int wanted,
-                           std::uint64_t trial, const SpectralOptions& options) {
+/// The `wanted` largest eigenpairs orthogonal to `known`, from start number `trial`.
+struct EigenSearch {
+    const EigenPairs& known;
+    int wanted = 1;
+    std::uint64_t trial = 0;
+};
+
+/// On the root alone, while the other ranks serve products.
+EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const EigenSearch& search,
+                           const SpectralOptions& options) {
     const PetscMatrix matrix = shell_matrix(product);
     std::vector<PetscVector> deflated;
     std::vector<Vec> handles;
-    for (Eigen::Index k = 0; k < known.vectors.cols(); ++k) {
-        deflated.push_back(to_petsc(matrix.get(), known.vectors.col(k)));
+    for (Eigen::Index k = 0; k < search.known.vectors.cols(); ++k) {
+        deflated.push_back(to_petsc(matrix.get(), search.known.vectors.col(k)));
         handles.push_back(deflated.back().get());
     }
-    const PetscVector start = to_petsc(matrix.get(), start_vector(op, trial));
+    const PetscVector start = to_petsc(matrix.get(), start_vector(op, search.trial));
     Vec initial = start.get();
     Progress progress;
     EigenSolver solver;
     check(EPSCreate(PETSC_COMM_SELF, solver.out()), "EPSCreate");
-    configure(solver.get(), matrix.get(), wanted, options, progress);
+    configure(solver.get(), matrix.get(), search.wanted, options, progress);
     if (!handles.empty()) {
         check(EPSSetDeflationSpace(solver.get(), static_cast<PetscInt>(handles.size()), handles.data()),
               "EPSSetDeflationSpace");
     }
     check(EPSSetInitialSpace(solver.get(), 1, &initial), "EPSSetInitialSpace");
     check(EPSSolve(solver.get()), "EPSSolve");
-    refuse_unconverged(solver.get(), wanted, progress);
+    refuse_unconverged(solver.get(), search.wanted, progress);
     EigenPairs found;
     PetscVector vector;
     check(MatCreateVecs(matrix.get(), vector.out(), nullptr), "MatCreateVecs");
-    for (int k = 0; k < wanted; ++k) {
+    for (int k = 0; k < search.wanted; ++k) {
         PetscScalar value = 0.0;
         check(EPSGetEigenpair(solver.get(), k, &value, nullptr, vector.get(), nullptr), "EPSGetEigenpair");
         found.append(value, to_eigen(vector.get(), static_cast<Eigen::Index>(op.degree.size())));
@@ -279,22 +286,21 @@ EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const 
 
 /// The same on all ranks, with the root's bits. Collective.
 EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, ServedProduct& product,
-                             const EigenPairs& known, int wanted, std::uint64_t trial,
-                             const SpectralOptions& options) {
+                             const EigenSearch& search, const SpectralOptions& options) {
     EigenPairs found;
     // The root lets the others go however its step ends, so nobody waits for a product that does not come.
     agree(comm, [&] {
         if (comm.is_root()) {
             const ServedProduct::Release release(product);
-            found = root_eigenpairs(op, product, known, wanted, trial, options);
+            found = root_eigenpairs(op, product, search, options);
         } else {
             product.serve();
         }
     });
-    found.values.resize(at(wanted));
-    found.vectors.resize(static_cast<Eigen::Index>(op.degree.size()), wanted);
-    MPI_Bcast(found.values.data(), wanted, MPI_DOUBLE, 0, comm.raw());
-    for (Eigen::Index k = 0; k < wanted; ++k) {
+    found.values.resize(at(search.wanted));
+    found.vectors.resize(static_cast<Eigen::Index>(op.degree.size()), search.wanted);
+    MPI_Bcast(found.values.data(), search.wanted, MPI_DOUBLE, 0, comm.raw());
+    for (Eigen::Index k = 0; k < search.wanted; ++k) {
         MPI_Bcast(found.vectors.col(k).data(), static_cast<int>(found.vectors.rows()), MPI_DOUBLE, 0,
                   comm.raw());
     }
@@ -321,9 +327,9 @@ void find_missed_pairs(const Comm& comm, const CutOperator& op, ServedProduct& p
     coarse.tolerance = std::max(options.tolerance, 1e-5);
     const std::size_t count = pairs.values.size();
     for (std::size_t round = 0; round < count; ++round) {
-        const EigenPairs look = krylov_eigenpairs(comm, op, product, pairs, 1, round + 1, coarse);
+        const EigenPairs look = krylov_eigenpairs(comm, op, product, {pairs, 1, round + 1}, coarse);
         if (look.values[0] <= pairs.values.back() + 1e-8) return;
-        const EigenPairs next = krylov_eigenpairs(comm, op, product, pairs, 1, round + 1, options);
+        const EigenPairs next = krylov_eigenpairs(comm, op, product, {pairs, 1, round + 1}, options);
         pairs.append(next.values[0], next.vectors.col(0));
         sort_descending(pairs);
         pairs.values.resize(count);
@@ -345,7 +351,7 @@ EigenPairs sparse_eigenpairs(const Comm& comm, const CutOperator& op, int count,
     if (wanted <= 0) return pairs;
     ServedProduct product(comm, op.matrix,
                           comm.is_root() ? mesh_balance(op, options, mesh_of) : GroupBalance{});
-    const EigenPairs found = krylov_eigenpairs(comm, op, product, pairs, wanted, 0, options);
+    const EigenPairs found = krylov_eigenpairs(comm, op, product, {pairs, wanted, 0}, options);
     for (int k = 0; k < wanted; ++k) pairs.append(found.values[at(k)], found.vectors.col(k));
     if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, product, options, pairs);
     return pairs;

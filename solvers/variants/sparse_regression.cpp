@@ -127,9 +127,10 @@ std::vector<Survey> SparseRegression::look(const std::vector<Column*>& columns) 
     std::vector<Survey> surveys(columns.size());
     for (int begin = 0; begin < stack_.size; begin += chunk_rows) {
         const int end = std::min(begin + chunk_rows, stack_.size);
-        multiply_transposed(end - begin, width, dimension,
-                            stack_.columns.data() + static_cast<std::int64_t>(begin) * dimension, dimension,
-                            residuals.data(), dimension, 0.0, scores.data(), chunk_rows);
+        const double* chunk = stack_.columns.data() + static_cast<std::int64_t>(begin) * dimension;
+        multiply_transposed({chunk, dimension, end - begin, dimension},
+                            {residuals.data(), dimension, width, dimension}, 0.0,
+                            {scores.data(), end - begin, width, chunk_rows});
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const double* score = scores.data() + c * chunk_rows;
             for (int i = begin; i < end; ++i) inspect(*columns[c], i, score[i - begin], surveys[c]);
