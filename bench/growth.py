@@ -18,8 +18,6 @@ import argparse
 import json
 import pathlib
 import shutil
-import subprocess
-import sys
 import tempfile
 
 from collection import command_output, write_result

@@ -352,8 +352,8 @@ void finish_result(const Comm& comm, const Totals& totals, const MeshScopeSolver
     result.working_pairs = all_sum(comm, totals.working_pairs);
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
     finish_history(comm, totals, stack, result);
-    const bool timed_out = all_max(comm, solver.timed_out() ? 1.0 : 0.0) > 0.0;
-    const bool limited = all_max(comm, totals.limited ? 1.0 : 0.0) > 0.0;
+    const bool timed_out = any_rank(comm, solver.timed_out());
+    const bool limited = any_rank(comm, totals.limited);
     if (result.relative_gap <= gap) {
         result.reason = StopReason::gap_reached;
     } else if (limited) {

@@ -344,9 +344,8 @@ struct Totals {
 };
 
 StopReason reason_of(const Comm& comm, const Totals& totals, bool timed_out) {
-    if (all_max(comm, timed_out ? 1.0 : 0.0) > 0.0) return StopReason::time_limit;
-    return all_max(comm, totals.limited ? 1.0 : 0.0) > 0.0 ? StopReason::iteration_limit
-                                                           : StopReason::residual_reached;
+    if (any_rank(comm, timed_out)) return StopReason::time_limit;
+    return any_rank(comm, totals.limited) ? StopReason::iteration_limit : StopReason::residual_reached;
 }
 
 double relative_gap(double objective, double lower_bound, double objective_at_zero) {

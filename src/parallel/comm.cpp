@@ -172,6 +172,14 @@ void broadcast_texts(const Comm& comm, std::vector<std::string>& texts) {
     texts = parted(buffer);
 }
 
+bool any_rank(const Comm& comm, bool local) {
+    int result = local ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &result, 1, MPI_INT, MPI_MAX, comm.raw());
+    return result != 0;
+}
+
+bool every_rank(const Comm& comm, bool local) { return !any_rank(comm, !local); }
+
 double all_max(const Comm& comm, double local) {
     double result = 0.0;
     MPI_Allreduce(&local, &result, 1, MPI_DOUBLE, MPI_MAX, comm.raw());

@@ -69,6 +69,10 @@ std::vector<std::string> all_gather_texts(const Comm& comm, const std::vector<st
 /// The root's texts on all ranks. Collective.
 void broadcast_texts(const Comm& comm, std::vector<std::string>& texts);
 
+/// Whether it is true on any rank, and whether on every rank. Collective.
+bool any_rank(const Comm& comm, bool local);
+bool every_rank(const Comm& comm, bool local);
+
 double all_max(const Comm& comm, double local);
 double all_min(const Comm& comm, double local);
 std::int64_t all_sum(const Comm& comm, std::int64_t local);

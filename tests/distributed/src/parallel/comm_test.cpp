@@ -42,6 +42,15 @@ TEST(AllGather, GivesTheSameInMessagesOfAnyLength) {
     for (const std::int64_t longest : {1, 3, 5, 1000}) EXPECT_EQ(all_gather(comm, local, longest), whole);
 }
 
+TEST(AnyRank, HearsOneRankAmongAll) {
+    const Comm comm(MPI_COMM_WORLD);
+    const bool last = comm.rank() == comm.size() - 1;
+    EXPECT_TRUE(any_rank(comm, last));
+    EXPECT_FALSE(any_rank(comm, false));
+    EXPECT_TRUE(every_rank(comm, true));
+    EXPECT_EQ(every_rank(comm, last), comm.size() == 1);
+}
+
 TEST(InMessages, CoverValuesBeyondTheRangeOfInt) {
     constexpr std::int64_t total = 5'000'000'000;
     std::int64_t next = 0;
