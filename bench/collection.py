@@ -32,7 +32,7 @@ LOOK_SECONDS = 0.25
 def command_output(words):
     result = subprocess.run([str(word) for word in words], capture_output=True, text=True)
     if result.returncode != 0:
-        sys.exit(f"collection.py: {' '.join(map(str, words))} ended with {result.returncode}: {result.stderr.strip()}")
+        sys.exit(f"{os.path.basename(sys.argv[0])}: {' '.join(map(str, words))} ended with {result.returncode}: {result.stderr.strip()}")
     return result.stdout
 
 
@@ -184,6 +184,16 @@ def markdown(rows):
     return "\n".join(lines) + "\n"
 
 
+def write_result(options, result, table):
+    """JSON where --out says; the table where --table says, else on standard output."""
+    if options.out:
+        options.out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    if options.table:
+        options.table.write_text(table, encoding="utf-8")
+    else:
+        print(table, end="")
+
+
 def main():
     parser = argparse.ArgumentParser(description="What coseg run costs on a large collection.")
     parser.add_argument("--coseg", required=True, type=pathlib.Path)
@@ -208,12 +218,7 @@ def main():
         rows = [measured(options, shapes, scratch) for shapes in counts]
     result = {"format": "coseg collection 1", "machine": f"{platform.machine()}, {os.cpu_count()} cores", "ranks": options.ranks,
               "run_options": options.run_options, "rows": rows}
-    if options.out:
-        options.out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    if options.table:
-        options.table.write_text(markdown(rows), encoding="utf-8")
-    else:
-        print(markdown(rows), end="")
+    write_result(options, result, markdown(rows))
 
 
 if __name__ == "__main__":

@@ -18,16 +18,9 @@ import argparse
 import json
 import pathlib
 import shutil
-import subprocess
-import sys
 import tempfile
 
-
-def command_output(words):
-    result = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-    if result.returncode != 0:
-        sys.exit(f"growth.py: {' '.join(map(str, words))} ended with {result.returncode}: {result.stderr.strip()}")
-    return result.stdout
+from collection import command_output, write_result
 
 
 def read_off(path):
@@ -185,12 +178,7 @@ def main():
             make_meshes(bench, options.make, options.count, options.faces)
             return
         result = {"format": "coseg growth 1", "series": {name: SERIES[name](bench) for name in options.only}}
-    if options.out:
-        options.out.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    if options.table:
-        options.table.write_text(markdown(result), encoding="utf-8")
-    else:
-        print(markdown(result), end="")
+    write_result(options, result, markdown(result))
 
 
 if __name__ == "__main__":

@@ -28,6 +28,7 @@
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_solver.hpp"
 #include "src/base/seeded_random.hpp"
+#include "src/base/stopwatch.hpp"
 
 namespace {
 
@@ -179,8 +180,8 @@ double machine_gigaflops(const coseg::Comm& comm) {
     MPI_Barrier(comm.raw());
     const double start = coseg::PassClock::cpu_seconds();
     for (int r = 0; r < repeats; ++r) {
-        coseg::multiply_transposed(size, size, length, a.data(), length, a.data(), length, 0.0F, c.data(),
-                                   size);
+        coseg::multiply_transposed({a.data(), length, size, length}, {a.data(), length, size, length}, 0.0F,
+                                   {c.data(), size, size, size});
     }
     const double seconds = coseg::PassClock::cpu_seconds() - start;
     return sum_over_ranks(comm, 2e-9 * repeats * size * size * length / seconds) / comm.size();
@@ -232,13 +233,13 @@ ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& resu
     options.minima_rule = false;
     options.starts = coseg::single_start(clusters, 0.0);
     MPI_Barrier(comm.raw());
-    const double start = MPI_Wtime();
+    const coseg::Stopwatch clock;
     const double cpu_start = coseg::PassClock::cpu_seconds();
     const coseg::CutResult cut =
         coseg::partition_patches(comm, {result.coefficients, neighbors, overlaps, mesh_of, area}, options);
     const double cpu = coseg::PassClock::cpu_seconds() - cpu_start;
     return {{"clusters", clusters},
-            {"seconds", coseg::all_max(comm, MPI_Wtime() - start)},
+            {"seconds", coseg::all_max(comm, clock.seconds())},
             {"cpu_seconds", coseg::all_max(comm, cpu)},
             {"eigenvalues", cut.starts.front().eigenvalues},
             {"set_aside", cut.starts.front().set_aside},
@@ -249,11 +250,11 @@ ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& prob
                      const std::string& solver, const MemoryWatch& memory) {
     const double machine = machine_gigaflops(comm);
     MPI_Barrier(comm.raw());
-    const double start = MPI_Wtime();
+    const coseg::Stopwatch clock;
     const double cpu_start = coseg::PassClock::cpu_seconds();
     message_bytes = 0.0;
     const coseg::SolveResult result = solve_subspace(comm, problem, {.gap = settings.gap, .solver = solver});
-    const double seconds = coseg::all_max(comm, MPI_Wtime() - start);
+    const double seconds = coseg::all_max(comm, clock.seconds());
     const double cpu = sum_over_ranks(comm, coseg::PassClock::cpu_seconds() - cpu_start);
     ordered_json json{{"n", problem.size()},
                       {"solver", solver},

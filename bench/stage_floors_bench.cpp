@@ -21,7 +21,6 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -37,6 +36,7 @@
 #include "solvers/oversegmentation/face_agglomeration.hpp"
 #include "solvers/oversegmentation/oversegmentation.hpp"
 #include "solvers/oversegmentation/weighted_graph.hpp"
+#include "src/base/stopwatch.hpp"
 #include "src/descriptors/shape_context.hpp"
 #include "src/descriptors/shape_diameter.hpp"
 #include "src/geodesics/geodesic.hpp"
@@ -45,6 +45,7 @@
 #include "src/mesh/dihedral_cost.hpp"
 #include "src/mesh/dual_graph.hpp"
 #include "src/mesh/face_geometry.hpp"
+#include "src/mesh/ray_scene.hpp"
 #include "src/repair/mesh_repair.hpp"
 
 namespace {
@@ -55,9 +56,9 @@ constexpr int patches = 50;
 constexpr int solves_of_a_vector = 20;  // the size of the Lanczos basis
 
 double seconds_of(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
+    const coseg::Stopwatch clock;
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return clock.seconds();
 }
 
 struct Stage {
@@ -80,31 +81,6 @@ Mesh prepared(const std::string& path) {
     return mesh;
 }
 
-struct SceneDeleter {
-    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Scene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
-
-Scene embree_scene(RTCDevice device, const coseg::TriMesh& mesh) {
-    Scene scene(rtcNewScene(device));
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry triangles = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* points = static_cast<float*>(
-        rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                static_cast<std::size_t>(mesh.vertex_count())));
-    auto* corners = static_cast<unsigned*>(
-        rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
-                                static_cast<std::size_t>(mesh.face_count())));
-    Eigen::Map<Eigen::Matrix3Xf>(points, 3, mesh.vertices.cols()) = mesh.vertices.cast<float>();
-    Eigen::Map<Eigen::Matrix<unsigned, 3, Eigen::Dynamic>>(corners, 3, mesh.faces.cols()) =
-        mesh.faces.cast<unsigned>();
-    rtcCommitGeometry(triangles);
-    rtcAttachGeometry(scene.get(), triangles);
-    rtcReleaseGeometry(triangles);
-    rtcCommitScene(scene.get());
-    return scene;
-}
-
 RTCRayHit16 packet_of(const Mesh& mesh, int face, const coseg::RayCone& cone, int first) {
     RTCRayHit16 packet{};
     const Eigen::Vector3d inward = -mesh.geometry.normal.col(face);
@@ -114,24 +90,19 @@ RTCRayHit16 packet_of(const Mesh& mesh, int face, const coseg::RayCone& cone, in
     for (int i = 0; i < 16; ++i) {
         const Eigen::Vector3d direction =
             frame * cone.directions.col(std::min(first + i, coseg::shape_diameter_rays - 1));
-        packet.ray.org_x[i] = static_cast<float>(mesh.geometry.centroid(0, face));
-        packet.ray.org_y[i] = static_cast<float>(mesh.geometry.centroid(1, face));
-        packet.ray.org_z[i] = static_cast<float>(mesh.geometry.centroid(2, face));
-        packet.ray.dir_x[i] = static_cast<float>(direction.x());
-        packet.ray.dir_y[i] = static_cast<float>(direction.y());
-        packet.ray.dir_z[i] = static_cast<float>(direction.z());
-        packet.ray.tnear[i] = 1e-5F * static_cast<float>(std::sqrt(mesh.geometry.total_area));
-        packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-        packet.ray.mask[i] = ~0U;
+        coseg::set_ray(packet.ray, i, mesh.geometry.centroid.col(face).cast<float>(), direction.cast<float>(),
+                       1e-5F * static_cast<float>(std::sqrt(mesh.geometry.total_area)),
+                       std::numeric_limits<float>::infinity());
         packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
     return packet;
 }
 
-void add_shape_diameter(const Mesh& mesh, RTCDevice device, Stage& stage) {
+void add_shape_diameter(const Mesh& mesh, Stage& stage) {
     stage.seconds += seconds_of([&] { coseg::shape_diameter(mesh.surface, mesh.geometry, mesh.dual); });
     const coseg::RayCone cone = coseg::shape_diameter_cone();
-    const Scene scene = embree_scene(device, mesh.surface);
+    const coseg::RayScene scene(mesh.surface.vertices.cast<float>(), mesh.surface.faces,
+                                coseg::RayScene::Filter::none);
     alignas(64) int valid[16];
     std::fill(std::begin(valid), std::end(valid), -1);
     constexpr int group = 1024;  // faces whose packets stay in the cache between preparation and use
@@ -192,14 +163,12 @@ void add_words(const coseg::Comm& comm, const std::vector<Eigen::MatrixXf>& cont
     double sum = 0.0;  // used below, so that nothing is left out as without effect
     for (const Eigen::MatrixXf& context : contexts) {
         const int faces = static_cast<int>(context.cols());
-        const int rows = static_cast<int>(context.rows());
         const Eigen::MatrixXf centres = context.leftCols(std::min(words, faces));
         Eigen::MatrixXf product(centres.cols(), faces);
         std::vector<float> copy(static_cast<std::size_t>(context.size()));
         stage.floor += seconds_of([&] {
-            coseg::multiply_transposed(static_cast<int>(centres.cols()), faces, rows, centres.data(), rows,
-                                       context.data(), rows, 0.0F, product.data(),
-                                       static_cast<int>(centres.cols()));
+            coseg::multiply_transposed(coseg::whole(centres), coseg::whole(context), 0.0F,
+                                       coseg::whole(product));
             for (int round = 0; round < coseg::word_rounds; ++round) {
                 std::memcpy(copy.data(), context.data(), copy.size() * sizeof(float));
                 sum += static_cast<double>(copy[static_cast<std::size_t>(round)]);
@@ -267,7 +236,6 @@ nlohmann::ordered_json row(const std::string& unit, const Stage& stage) {
 }
 
 void measure(const coseg::Comm& comm, const std::vector<std::string>& paths) {
-    RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
     Stage diameter;
     Stage geodesics;
     Stage words_stage;
@@ -277,11 +245,10 @@ void measure(const coseg::Comm& comm, const std::vector<std::string>& paths) {
     for (const std::string& path : paths) {
         const Mesh mesh = prepared(path);
         faces += mesh.surface.face_count();
-        add_shape_diameter(mesh, device, diameter);
+        add_shape_diameter(mesh, diameter);
         contexts.push_back(coseg::shape_context(add_geodesics(mesh, geodesics), mesh.geometry));
         add_oversegmentation(mesh, patches_stage);
     }
-    rtcReleaseDevice(device);
     add_words(comm, contexts, words_stage);
     const nlohmann::ordered_json result = {{"format", "coseg stage floors 1"},
                                            {"meshes", paths.size()},

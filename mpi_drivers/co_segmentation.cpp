@@ -1,7 +1,6 @@
 #include "mpi_drivers/co_segmentation.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -29,6 +28,7 @@
 #include "solvers/petsc/petsc_log.hpp"
 #include "solvers/petsc/petsc_session.hpp"
 #include "src/base/error.hpp"
+#include "src/base/text.hpp"
 #include "src/parallel/stage_log.hpp"
 
 namespace coseg {
@@ -134,12 +134,6 @@ Collection describe_stage(const Comm& comm, const RunOptions& options, const Run
     warn_of_meshes(collection, log);
     refuse_too_many_parts(collection, options);
     return collection;
-}
-
-std::string significant(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
 }
 
 /// What finds and keeps the results of the optimiser and the cut in a state folder.
@@ -272,7 +266,6 @@ void co_segment(const Comm& comm, const RunOptions& options,
     if (!options.state.empty())
         state.emplace(comm, options.state, LockMode::exclusive, options.checkpoint_seconds);
     ResultFolder folder(comm, options.out, options.force);
-    if (state) state->rearm();
 
     Collection collection = describe_stage(comm, options, state ? &*state : nullptr, log);
 

@@ -18,7 +18,7 @@
 #include "mpi_drivers/options/config_file.hpp"
 #include "mpi_drivers/options/help_pages.hpp"
 #include "mpi_drivers/process/self_launch.hpp"
-#include "mpi_drivers/process/stop_request.hpp"
+#include "mpi_drivers/process/signals.hpp"
 #include "mpi_drivers/process/version.hpp"
 #include "src/base/error.hpp"
 #include "src/base/spelling.hpp"

@@ -5,6 +5,7 @@
 
 #include "io/files/hdf5_file.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -34,8 +35,8 @@ ItemPairs read_pairs(const Hdf5Reader& reader, const std::string& group, const s
     if (pairs.first.size() != pairs.second.size() || pairs.first.size() != pairs.weight.size())
         refuse(reader.path(), "the datasets of '" + group + "' are of different lengths");
     for (std::size_t k = 0; k < pairs.first.size(); ++k) {
-        const bool inside = pairs.first[k] >= 0 && pairs.first[k] < pairs.second[k] &&
-                            static_cast<std::size_t>(pairs.second[k]) < items;
+        const bool inside =
+            pairs.first[k] >= 0 && pairs.first[k] < pairs.second[k] && at(pairs.second[k]) < items;
         if (!inside || !is_size(pairs.weight[k])) {
             refuse(reader.path(), "'" + group + "', pair " + std::to_string(k) +
                                       ": needs 0 <= first < second < number of items and a finite " + weight +
@@ -53,7 +54,7 @@ void read_groups(const Hdf5Reader& reader, std::size_t items, FeatureFile& file)
             refuse(reader.path(), "'mesh_of' holds a negative number; meshes count from 0");
         // What follows is as large as the largest number.
         const int largest = file.mesh_of.empty() ? 0 : *std::ranges::max_element(file.mesh_of);
-        if (items > 0 && static_cast<std::size_t>(largest) >= items) {
+        if (items > 0 && at(largest) >= items) {
             refuse(reader.path(), "'mesh_of' holds the number " + std::to_string(largest) +
                                       ", but there are " + std::to_string(items) +
                                       " items only; number the meshes from 0 without gaps");
@@ -62,7 +63,7 @@ void read_groups(const Hdf5Reader& reader, std::size_t items, FeatureFile& file)
     if (reader.has("mesh_names")) {
         file.mesh_names = reader.read_texts("mesh_names");
         const int meshes = file.mesh_of.empty() ? 0 : *std::ranges::max_element(file.mesh_of) + 1;
-        if (static_cast<std::size_t>(meshes) != file.mesh_names.size())
+        if (at(meshes) != file.mesh_names.size())
             refuse(reader.path(), "'mesh_names' has " + std::to_string(file.mesh_names.size()) +
                                       " entries, but 'mesh_of' counts " + std::to_string(meshes));
     }
@@ -102,7 +103,7 @@ FeatureFile read_feature_file(const std::string& path) {
     if (file.names.empty()) refuse(path, "the group 'features' is empty; give at least one matrix");
     for (const std::string& name : file.names)
         file.features.push_back(reader.read_matrix("features/" + name));
-    const auto items = static_cast<std::size_t>(file.features.front().cols());
+    const auto items = at(file.features.front().cols());
     read_groups(reader, items, file);
     file.neighbors = read_pairs(reader, "neighbors", "boundary_length", items);
     if (!file.neighbors.first.empty()) read_concavity(reader, file);

@@ -6,6 +6,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/files/text_cursor.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -24,7 +25,7 @@ std::vector<int> read_labels(const std::string& path, int expected_count) {
         }
         labels.push_back(static_cast<int>(label));
     }
-    if (expected_count >= 0 && labels.size() != static_cast<std::size_t>(expected_count)) {
+    if (expected_count >= 0 && labels.size() != at(expected_count)) {
         cursor.fail("the file ends with " + std::to_string(labels.size()) + " labels, but the mesh has " +
                     std::to_string(expected_count) +
                     " faces; give one label per face, in the mesh file's order");

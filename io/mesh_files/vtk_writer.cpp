@@ -6,6 +6,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/byte_cursor.hpp"
 #include "src/base/error.hpp"
+#include "src/base/text.hpp"
 
 namespace coseg {
 
@@ -42,21 +43,6 @@ std::vector<double> coordinates(const PolygonMesh& mesh) {
     values.reserve(3 * mesh.vertices.size());
     for (const Eigen::Vector3d& p : mesh.vertices) values.insert(values.end(), p.data(), p.data() + 3);
     return values;
-}
-
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '<')
-            safe += "&lt;";
-        else if (c == '&')
-            safe += "&amp;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
 }
 
 }  // namespace

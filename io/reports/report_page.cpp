@@ -10,6 +10,7 @@
 #include "io/files/byte_cursor.hpp"
 #include "io/reports/web_assets.hpp"
 #include "src/base/error.hpp"
+#include "src/base/text.hpp"
 #include "src/pictures/part_colors.hpp"
 
 namespace coseg {
@@ -39,19 +40,6 @@ std::string inside_script(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         safe += text[i];
         if (text[i] == '<' && i + 1 < text.size() && text[i + 1] == '/') safe += '\\';
-    }
-    return safe;
-}
-
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '<')
-            safe += "&lt;";
-        else if (c == '&')
-            safe += "&amp;";
-        else
-            safe += c;
     }
     return safe;
 }

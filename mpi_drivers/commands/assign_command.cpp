@@ -96,7 +96,6 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     if (!options.state.empty())
         state.emplace(world, options.state, LockMode::exclusive, options.checkpoint_seconds);
     ResultFolder folder(world, options.out, options.force);
-    if (state) state->rearm();
     Collection collection = described(world, options, state ? &*state : nullptr, log);
     const ReportState reused = summary(state ? &*state : nullptr, collection);
     log.begin("features");

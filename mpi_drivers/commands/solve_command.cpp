@@ -11,6 +11,7 @@
 #include "mpi_drivers/options/option_checks.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
+#include "src/base/stopwatch.hpp"
 
 namespace coseg {
 
@@ -73,10 +74,10 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
     FeatureMatrices features;
     const ProblemFile file = read_and_broadcast(comm, settings.path, features);
     const SubspaceProblem problem = make_problem(file, std::move(features), settings);
-    const double start = MPI_Wtime();
+    const Stopwatch clock;
     const SolveResult result =
         solve_variant(comm, problem, variant_of(settings.variant), settings.feature - 1, settings.options);
-    const double seconds = MPI_Wtime() - start;
+    const double seconds = clock.seconds();
     if (comm.is_root()) {
         auto json = nlohmann::ordered_json::parse(certificate_json(problem, result));
         json.update({{"variant", settings.variant},

@@ -10,6 +10,7 @@
 #include "io/folders/state_folder.hpp"
 #include "io/folders/state_lock.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "src/base/text.hpp"
 
 namespace coseg {
 
@@ -25,9 +26,7 @@ struct StateOptions {
 constexpr double seconds_per_day = 86400.0;
 
 std::string sized(std::uintmax_t bytes) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f MiB", static_cast<double>(bytes) / (1 << 20));
-    return text;
+    return decimal(static_cast<double>(bytes) / (1 << 20), 1) + " MiB";
 }
 
 std::string counted(const std::vector<StateFile>& files) {

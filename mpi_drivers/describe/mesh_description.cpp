@@ -10,6 +10,7 @@
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
+#include "src/base/text.hpp"
 #include "src/descriptors/average_geodesic.hpp"
 #include "src/descriptors/conformal_factor.hpp"
 #include "src/descriptors/gaussian_curvature.hpp"
@@ -35,8 +36,6 @@ constexpr int most_even_faces = 400;
 /// Share of the area in overlong triangles above which `--remesh auto` remeshes. The labelled sets have up to 0.56 (a
 /// chair) and are cut well as they are; solids of revolution of few rings, which are not, have 0.8 and more.
 constexpr double most_overlong_area = 0.7;
-
-std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
 
 /// Adds the time since it was made, or since the last step, to a step of the description.
 class StepClock {
@@ -72,7 +71,7 @@ void remesh(TriMesh& mesh, MeshDescription& description, const std::string& path
     remesh_evenly(mesh, description.map, faces);
     description.remeshed = true;
     description.warnings.push_back(
-        path + ": " + percent(description.overlong_area) +
+        path + ": " + percent(description.overlong_area, 0) +
         " of the area is in triangles too long for patches: remeshed internally to " +
         std::to_string(mesh.face_count()) + " even triangles");
 }

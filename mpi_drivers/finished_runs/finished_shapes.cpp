@@ -12,6 +12,7 @@
 #include "src/base/index.hpp"
 #include "src/mesh/polygon_area.hpp"
 #include "src/metrics/assignment.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -59,7 +60,7 @@ int largest_truth_label(const std::vector<LabelledMesh>& shapes) {
     return largest;
 }
 
-void add_agreement(FixedPointSum& gains, const LabelledMesh& shape, int labels) {
+void add_agreement(ExactSum& gains, const LabelledMesh& shape, int labels) {
     const std::vector<double> areas = polygon_areas(shape.mesh);
     const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::map<std::pair<int, int>, double> shares;
@@ -67,9 +68,9 @@ void add_agreement(FixedPointSum& gains, const LabelledMesh& shape, int labels) 
         if (shape.truth[f] >= 0 && total > 0.0) shares[{shape.part[f], shape.truth[f]}] += areas[f] / total;
     }
     for (const auto& [cell, share] : shares) {
-        gains.add(static_cast<std::size_t>(cell.first) * static_cast<std::size_t>(labels) +
-                      static_cast<std::size_t>(cell.second),
-                  std::min(share, 1.0));
+        gains.add_scalar(static_cast<std::size_t>(cell.first) * static_cast<std::size_t>(labels) +
+                             static_cast<std::size_t>(cell.second),
+                         std::min(share, 1.0));
     }
 }
 
@@ -105,12 +106,12 @@ std::vector<int> agree_on_truth(const Comm& comm, const std::vector<LabelledMesh
                                                " and more; number them from 0");
     }
     const int labels = static_cast<int>(largest) + 1;
-    FixedPointSum gains(static_cast<std::size_t>(parts) * static_cast<std::size_t>(labels), 1.0);
+    ExactSum gains(static_cast<std::size_t>(parts) * static_cast<std::size_t>(labels));
     for (const LabelledMesh& shape : shapes) add_agreement(gains, shape, labels);
-    const std::vector<double> sums = gains.all_sum(comm);
+    gains.reduce(comm);
     return best_assignment(
         Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-            sums.data(), parts, labels));
+            gains.scalars().data(), parts, labels));
 }
 
 }  // namespace coseg

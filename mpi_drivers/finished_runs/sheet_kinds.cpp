@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <set>
 
 #include "src/base/index.hpp"
+#include "src/base/text.hpp"
 #include "src/mesh/polygon_area.hpp"
 #include "src/pictures/color_scale.hpp"
 #include "src/pictures/part_colors.hpp"
@@ -18,12 +18,6 @@ namespace {
 constexpr Color wrong = {0xD8, 0x2C, 0x2C};
 constexpr Color right = {0xC4, 0xCB, 0xD2};
 constexpr Color without_truth = {0xF2, 0xE3, 0xB3};
-
-std::string fixed(double value, int decimals) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
-}
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -98,7 +92,7 @@ void name_parts(std::vector<LegendEntry>& legend, const std::vector<double>& par
         const int label = key.label_of_part.empty() ? static_cast<int>(p) : key.label_of_part[p];
         const auto name = key.names.find(label);
         const std::string middle = name == key.names.end() ? "" : name->second + "  ";
-        legend[p].text = "part " + std::to_string(p) + "  " + middle + fixed(100.0 * part_area[p], 1) + " %";
+        legend[p].text = "part " + std::to_string(p) + "  " + middle + percent(part_area[p], 1);
     }
 }
 
@@ -114,7 +108,7 @@ DrawnShape drawn_errors(const LabelledMesh& shape, const std::vector<int>& label
         if (is_right) right_area += areas[f];
     }
     const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
-    return drawn(shape, colors, total > 0.0 ? fixed(100.0 * right_area / total, 1) + " %" : "");
+    return drawn(shape, colors, total > 0.0 ? percent(right_area / total, 1) : "");
 }
 
 /// The value below which `share` of the values lie.
@@ -149,12 +143,6 @@ ValueRange agreed_range(const Comm& comm, const std::vector<LabelledMesh>& shape
         mean.high += range.high / static_cast<double>(total);
     }
     return mean;
-}
-
-std::string significant(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
 }
 
 std::string as_words(std::string name) {
@@ -196,8 +184,7 @@ SheetHeading parts_heading(const std::vector<double>& part_area, int shapes) {
     heading.subtitle = counted(static_cast<std::size_t>(shapes), "shape", "shapes");
     for (std::size_t p = 0; p < part_area.size(); ++p) {
         heading.legend.push_back(
-            {part_color(static_cast<int>(p)),
-             "part " + std::to_string(p) + "  " + fixed(100.0 * part_area[p], 1) + " %"});
+            {part_color(static_cast<int>(p)), "part " + std::to_string(p) + "  " + percent(part_area[p], 1)});
     }
     return heading;
 }

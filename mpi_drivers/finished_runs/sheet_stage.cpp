@@ -5,6 +5,7 @@
 
 #include "io/reports/png_writer.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/exact_sum.hpp"
 #include "src/pictures/shape_picture.hpp"
 
 namespace coseg {
@@ -20,14 +21,15 @@ int tile_size(int shapes) {
 }
 
 UpAxis agreed_up(const Comm& comm, const std::vector<const DrawnShape*>& looked) {
-    FixedPointSum shares(5, 1.0);
+    ExactSum shares(5);
     for (const DrawnShape* shape : looked) {
         const Eigen::Vector3d share = standing_shares(shape->picture.mesh);
-        for (int axis = 0; axis < 3; ++axis) shares.add(static_cast<std::size_t>(axis), share[axis]);
-        shares.add(3, mirror_differences(shape->picture.mesh).y());
-        shares.add(4, 1.0);
+        for (int axis = 0; axis < 3; ++axis) shares.add_scalar(static_cast<std::size_t>(axis), share[axis]);
+        shares.add_scalar(3, mirror_differences(shape->picture.mesh).y());
+        shares.add_scalar(4, 1.0);
     }
-    const std::vector<double> sums = shares.all_sum(comm);
+    shares.reduce(comm);
+    const std::vector<double>& sums = shares.scalars();
     // Most files have y up, but y is the breadth rather than the height where the shapes are alike to both sides.
     constexpr double alike = 0.04;
     const double preference = sums[3] >= alike * sums[4] ? 0.65 : 1.0;
@@ -37,13 +39,15 @@ UpAxis agreed_up(const Comm& comm, const std::vector<const DrawnShape*>& looked)
 
 View agreed_widest(const Comm& comm, const std::vector<const DrawnShape*>& looked, UpAxis up) {
     const std::vector<View> views = candidate_views({up});
-    FixedPointSum shares(views.size(), 1.0);
+    ExactSum shares(views.size());
     for (const DrawnShape* shape : looked) {
         const std::vector<double> areas = outline_areas(shape->picture.mesh, views);
         const double largest = *std::max_element(areas.begin(), areas.end());
-        for (std::size_t v = 0; v < views.size() && largest > 0.0; ++v) shares.add(v, areas[v] / largest);
+        for (std::size_t v = 0; v < views.size() && largest > 0.0; ++v)
+            shares.add_scalar(v, areas[v] / largest);
     }
-    const std::vector<double> sums = shares.all_sum(comm);
+    shares.reduce(comm);
+    const std::vector<double>& sums = shares.scalars();
     const double nearly = 0.98 * *std::max_element(sums.begin(), sums.end());
     std::size_t first = 0;
     while (sums[first] < nearly) ++first;

@@ -1,7 +1,6 @@
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -9,16 +8,11 @@
 #include "solvers/variants/subspace_variants.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/base/text.hpp"
 
 namespace coseg {
 
 namespace {
-
-std::string significant(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
 
 /// What --links stands for.
 int links_of(const std::string& links, int meshes) {

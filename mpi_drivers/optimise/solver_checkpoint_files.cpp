@@ -289,7 +289,7 @@ std::optional<SolveIterate> SolverCheckpointFiles::find_iterate() {
         first = last;
         if (!is_complete(files, size_)) continue;
         std::optional<SolveIterate> iterate = load_iterate(files);
-        if (all_min(comm_, iterate ? 1.0 : 0.0) == 0.0) continue;
+        if (!every_rank(comm_, iterate.has_value())) continue;
         has_iterate_ = true;
         if (comm_.is_root()) ++found_;
         return iterate;
@@ -326,7 +326,7 @@ void SolverCheckpointFiles::close(bool stopped) {
         if (failure_) throw Error(*failure_);
         flush();
     });
-    const bool any_stopped = all_max(comm_, stopped ? 1.0 : 0.0) > 0.0;
+    const bool any_stopped = any_rank(comm_, stopped);
     const auto known = all_sum(comm_, std::int64_t{found_} + kept_);
     stop_.reset();
     if (any_stopped && has_iterate_) throw checkpointed("all meshes and the optimiser's iterate");

@@ -230,7 +230,7 @@ CutResult PartitionCheckpoint::cut(const Collection& collection, const PatchFeat
     std::vector<std::string> damage;
     std::optional<CutResult> found;
     // Every rank reads, so that a file which one of them cannot read is given up by all.
-    const bool is_there = all_min(comm_, std::filesystem::exists(file) ? 1.0 : 0.0) > 0.0;
+    const bool is_there = every_rank(comm_, std::filesystem::exists(file));
     try {
         if (is_there) found = read_cut(file);
     } catch (const Error& error) {

@@ -18,7 +18,7 @@ RunState::RunState(const Comm& comm, const std::string& directory, LockMode mode
 }
 
 void RunState::end_if_asked(const Comm& comm, const std::string& done) const {
-    if (all_max(comm, stop_is_raised() ? 1.0 : 0.0) > 0.0) throw checkpointed(done);
+    if (any_rank(comm, stop_is_raised())) throw checkpointed(done);
 }
 
 AgreedError checkpointed(const std::string& done) {

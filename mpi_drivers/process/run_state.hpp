@@ -7,7 +7,7 @@
 
 #include "io/folders/state_folder.hpp"
 #include "io/folders/state_lock.hpp"
-#include "mpi_drivers/process/stop_request.hpp"
+#include "mpi_drivers/process/signals.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
@@ -21,8 +21,6 @@ class RunState {
     [[nodiscard]] const StateFolder& folder() const noexcept { return *folder_; }
     [[nodiscard]] double checkpoint_seconds() const noexcept { return checkpoint_seconds_; }
 
-    /// See StopRequest::rearm.
-    void rearm() noexcept { stop_.rearm(); }
     /// Has this rank been asked to end? Not collective.
     [[nodiscard]] bool stop_is_raised() const noexcept { return stop_.is_raised(); }
     /// Collective: throws AgreedError(checkpointed) if any rank has. done: what the state holds, e.g. "all meshes".

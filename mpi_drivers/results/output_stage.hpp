@@ -12,7 +12,7 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
-#include "mpi_drivers/process/termination_watch.hpp"
+#include "mpi_drivers/process/signals.hpp"
 #include "mpi_drivers/results/label_stage.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"

@@ -5,6 +5,7 @@
 #include "mpi_drivers/finished_runs/sheet_kinds.hpp"
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -12,11 +13,12 @@ namespace {
 
 std::vector<double> mean_part_area(const Comm& comm, const std::vector<MeshLabels>& labels,
                                    std::size_t meshes, std::size_t parts) {
-    FixedPointSum shares(parts, 1.0);
+    ExactSum shares(parts);
     for (const MeshLabels& mesh : labels) {
-        for (std::size_t p = 0; p < parts; ++p) shares.add(p, std::min(mesh.part_area[p], 1.0));
+        for (std::size_t p = 0; p < parts; ++p) shares.add_scalar(p, std::min(mesh.part_area[p], 1.0));
     }
-    std::vector<double> mean = shares.all_sum(comm);
+    shares.reduce(comm);
+    std::vector<double> mean = shares.scalars();
     for (double& share : mean) share /= static_cast<double>(meshes);
     return mean;
 }

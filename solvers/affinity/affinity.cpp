@@ -10,7 +10,7 @@ namespace coseg {
 namespace {
 
 std::vector<double> pair_norms(const SparseCoefficients& coefficients) {
-    const auto features = static_cast<std::size_t>(coefficients.features);
+    const auto features = at(coefficients.features);
     std::vector<double> norms(coefficients.rows.size());
     for (std::size_t k = 0; k < norms.size(); ++k) {
         double squares = 0.0;
@@ -30,8 +30,8 @@ SparseRows plus_transpose(const Comm& comm, const SparseCoefficients& coefficien
     entries.reserve(2 * values.size());
     for (std::int64_t c = 0; c < coefficients.columns.size(); ++c) {
         const auto column = static_cast<int>(coefficients.columns.begin + c);
-        const auto end = static_cast<std::size_t>(coefficients.offsets[at(c) + 1]);
-        for (auto k = static_cast<std::size_t>(coefficients.offsets[at(c)]); k < end; ++k) {
+        const auto end = at(coefficients.offsets[at(c) + 1]);
+        for (auto k = at(coefficients.offsets[at(c)]); k < end; ++k) {
             entries.push_back({coefficients.rows[k], column, values[k]});
             entries.push_back({column, coefficients.rows[k], values[k]});
         }
@@ -63,8 +63,8 @@ SparseRows symmetric_affinity(const Comm& comm, const SparseCoefficients& coeffi
 SparseRows normalized_links(const Comm& comm, const SparseCoefficients& coefficients) {
     std::vector<double> shares = pair_norms(coefficients);
     for (std::size_t c = 0; c + 1 < coefficients.offsets.size(); ++c) {
-        const auto begin = static_cast<std::size_t>(coefficients.offsets[c]);
-        const auto end = static_cast<std::size_t>(coefficients.offsets[c + 1]);
+        const auto begin = at(coefficients.offsets[c]);
+        const auto end = at(coefficients.offsets[c + 1]);
         double sum = 0.0;
         for (std::size_t k = begin; k < end; ++k) sum += shares[k];
         for (std::size_t k = begin; k < end && sum > 0.0; ++k) shares[k] /= sum;
@@ -75,7 +75,7 @@ SparseRows normalized_links(const Comm& comm, const SparseCoefficients& coeffici
 void apply_minima_rule(SparseRows& affinity, const std::vector<GlobalPatchNeighbors>& neighbors) {
     const auto weaken = [&](int row, int column, double factor) {
         if (!affinity.rows.contains(row)) return;
-        const auto r = static_cast<std::size_t>(row - affinity.rows.begin);
+        const auto r = at(row - affinity.rows.begin);
         const auto begin = affinity.columns.begin() + affinity.offsets[r];
         const auto end = affinity.columns.begin() + affinity.offsets[r + 1];
         const auto place = std::lower_bound(begin, end, column);
@@ -92,10 +92,8 @@ void apply_minima_rule(SparseRows& affinity, const std::vector<GlobalPatchNeighb
 SparseRows adjacency_affinity(BlockRange range, const std::vector<GlobalPatchNeighbors>& neighbors,
                               const std::vector<int>& mesh_of) {
     const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
-    std::vector<double> mesh_total(static_cast<std::size_t>(meshes), 0.0);
-    const auto mesh = [&](const GlobalPatchNeighbors& pair) {
-        return static_cast<std::size_t>(mesh_of[at(pair.patch_a)]);
-    };
+    std::vector<double> mesh_total(at(meshes), 0.0);
+    const auto mesh = [&](const GlobalPatchNeighbors& pair) { return at(mesh_of[at(pair.patch_a)]); };
     for (const GlobalPatchNeighbors& pair : neighbors) mesh_total[mesh(pair)] += 2.0 * adjacency_weight(pair);
     std::vector<SparseEntry> entries;
     for (const GlobalPatchNeighbors& pair : neighbors) {

@@ -17,9 +17,7 @@ constexpr double ticks = 0x1p20;  // of the largest link: whole numbers add up t
 double pair_norm(const SparseCoefficients& coefficients, std::size_t pair) {
     double sum = 0.0;
     for (int h = 0; h < coefficients.features; ++h) {
-        const double w =
-            coefficients
-                .values[pair * static_cast<std::size_t>(coefficients.features) + static_cast<std::size_t>(h)];
+        const double w = coefficients.values[pair * at(coefficients.features) + at(h)];
         sum += w * w;
     }
     return std::sqrt(sum);
@@ -46,11 +44,10 @@ std::vector<std::int64_t> summed_bins(const Comm& comm, const SparseCoefficients
     }
     largest = all_max(comm, largest);
     std::vector<std::int64_t> sums(bins * bins, 0);
-    for (std::size_t c = 0; largest > 0.0 && c < static_cast<std::size_t>(coefficients.columns.size()); ++c) {
-        const auto column = static_cast<std::size_t>(bin_of_patch[at(coefficients.columns.begin) + c]);
-        for (auto k = static_cast<std::size_t>(coefficients.offsets[c]);
-             k < static_cast<std::size_t>(coefficients.offsets[c + 1]); ++k) {
-            const auto row = static_cast<std::size_t>(bin_of_patch[at(coefficients.rows[k])]);
+    for (std::size_t c = 0; largest > 0.0 && c < at(coefficients.columns.size()); ++c) {
+        const auto column = at(bin_of_patch[at(coefficients.columns.begin) + c]);
+        for (auto k = at(coefficients.offsets[c]); k < at(coefficients.offsets[c + 1]); ++k) {
+            const auto row = at(bin_of_patch[at(coefficients.rows[k])]);
             const std::int64_t link = std::llround(norms[k] / largest * ticks);
             sums[row * bins + column] += link;
             sums[column * bins + row] += link;
@@ -65,7 +62,7 @@ std::vector<std::int64_t> summed_bins(const Comm& comm, const SparseCoefficients
 AffinityPicture affinity_picture(const Comm& comm, const SparseCoefficients& coefficients,
                                  const std::vector<int>& part_of_patch, int parts, int most_bins) {
     const auto patches = static_cast<std::int64_t>(part_of_patch.size());
-    const auto bins = static_cast<std::size_t>(std::min<std::int64_t>(most_bins, patches));
+    const auto bins = at(std::min<std::int64_t>(most_bins, patches));
     std::vector<int> bin_of_patch = sorted_places(part_of_patch);
     std::vector<std::int64_t> sizes(bins, 0);
     for (int& place : bin_of_patch) {

@@ -31,9 +31,8 @@ class DisjointSets {
 };
 
 void join_rows(const SparseRows& graph, DisjointSets& sets) {
-    for (std::size_t r = 0; r < static_cast<std::size_t>(graph.local_rows()); ++r) {
-        for (auto k = static_cast<std::size_t>(graph.offsets[r]);
-             k < static_cast<std::size_t>(graph.offsets[r + 1]); ++k) {
+    for (std::size_t r = 0; r < at(graph.local_rows()); ++r) {
+        for (auto k = at(graph.offsets[r]); k < at(graph.offsets[r + 1]); ++k) {
             if (graph.values[k] > 0.0)
                 sets.join(static_cast<int>(graph.rows.begin) + static_cast<int>(r), graph.columns[k]);
         }
@@ -52,8 +51,7 @@ void join_over_ranks(const Comm& comm, int size, DisjointSets& sets) {
 /// Per label the within_mesh_affinity from `row` to rows that have it; the heaviest label, or -1.
 int heaviest_label(const SparseRows& within_mesh_affinity, std::size_t row, const std::vector<int>& labels) {
     std::map<int, double> weight;
-    for (auto k = static_cast<std::size_t>(within_mesh_affinity.offsets[row]);
-         k < static_cast<std::size_t>(within_mesh_affinity.offsets[row + 1]); ++k) {
+    for (auto k = at(within_mesh_affinity.offsets[row]); k < at(within_mesh_affinity.offsets[row + 1]); ++k) {
         const int label = labels[at(within_mesh_affinity.columns[k])];
         if (label >= 0 && within_mesh_affinity.values[k] > 0.0)
             weight[label] += within_mesh_affinity.values[k];
@@ -73,10 +71,10 @@ int heaviest_label(const SparseRows& within_mesh_affinity, std::size_t row, cons
 
 std::vector<int> connected_components(const Comm& comm, const SparseRows& graph) {
     const auto size = static_cast<int>(graph.size);
-    DisjointSets sets(static_cast<std::size_t>(size));
+    DisjointSets sets(at(size));
     join_rows(graph, sets);
     if (comm.size() > 1) join_over_ranks(comm, size, sets);
-    std::vector<int> component(static_cast<std::size_t>(size));
+    std::vector<int> component(at(size));
     for (int i = 0; i < size; ++i) component[at(i)] = sets.find(i);
     return component;
 }
@@ -95,7 +93,7 @@ std::vector<std::vector<int>> main_components(const std::vector<int>& component_
                      [](const auto& a, const auto& b) { return a.size() > b.size(); });
     const double least = share_of_a_part * static_cast<double>(component_of_row.size()) / parts;
     std::size_t kept = 0;
-    while (kept < sorted.size() && kept < static_cast<std::size_t>(parts) &&
+    while (kept < sorted.size() && kept < at(parts) &&
            (kept == 0 || static_cast<double>(sorted[kept].size()) >= least)) {
         ++kept;
     }

@@ -25,8 +25,7 @@ using RowMoments = std::array<double, 4>;
 template <class Visit>
 void for_each_link(const SparseRows& links, const std::vector<int>& mesh_of, std::size_t r, Visit&& visit) {
     const int mesh = mesh_of[at(links.rows.begin) + r];
-    for (auto k = static_cast<std::size_t>(links.offsets[r]);
-         k < static_cast<std::size_t>(links.offsets[r + 1]); ++k) {
+    for (auto k = at(links.offsets[r]); k < at(links.offsets[r + 1]); ++k) {
         if (mesh_of[at(links.columns[k])] != mesh) visit(k, links.columns[k]);
     }
 }
@@ -35,12 +34,11 @@ void for_each_link(const SparseRows& links, const std::vector<int>& mesh_of, std
 std::vector<RowMoments> row_moments(const Comm& comm, const SparseRows& links,
                                     const Eigen::Matrix3Xd& positions, const std::vector<int>& mesh_of) {
     std::vector<double> local;
-    for (std::size_t r = 0; r < static_cast<std::size_t>(links.local_rows()); ++r) {
+    for (std::size_t r = 0; r < at(links.local_rows()); ++r) {
         RowMoments sums{};
         for_each_link(links, mesh_of, r, [&](std::size_t k, int j) {
             sums[0] += links.values[k];
-            for (int a = 0; a < 3; ++a)
-                sums[1 + static_cast<std::size_t>(a)] += links.values[k] * positions(a, j);
+            for (int a = 0; a < 3; ++a) sums[1 + at(a)] += links.values[k] * positions(a, j);
         });
         local.insert(local.end(), sums.begin(), sums.end());
     }
@@ -100,7 +98,7 @@ void weigh_by_position(const PositionFrame& frame, const Eigen::Matrix3Xd& posit
                                            PairDensity(frame.correlation[1]),
                                            PairDensity(frame.correlation[2])};
     const Eigen::Matrix3Xd in_frame = frame.directions.transpose() * (positions.colwise() - frame.mean);
-    for (std::size_t r = 0; r < static_cast<std::size_t>(links.local_rows()); ++r) {
+    for (std::size_t r = 0; r < at(links.local_rows()); ++r) {
         const auto x =
             in_frame.col(static_cast<Eigen::Index>(links.rows.begin) + static_cast<Eigen::Index>(r));
         for_each_link(links, mesh_of, r, [&](std::size_t k, int j) {

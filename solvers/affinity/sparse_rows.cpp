@@ -15,7 +15,7 @@ namespace {
 
 /// Counting sort by row, then each row by column and value.
 std::vector<std::int64_t> sort_by_row(BlockRange range, std::vector<SparseEntry>& entries) {
-    std::vector<std::int64_t> starts(static_cast<std::size_t>(range.size()) + 1, 0);
+    std::vector<std::int64_t> starts(at(range.size()) + 1, 0);
     for (const SparseEntry& e : entries) ++starts[at(e.row - range.begin) + 1];
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
     std::vector<std::int64_t> next(starts.begin(), starts.end() - 1);
@@ -51,7 +51,7 @@ struct Envelope {
 
 std::vector<std::int64_t> counts_by_owner(const Comm& comm, std::int64_t size,
                                           const std::vector<SparseEntry>& entries) {
-    std::vector<std::int64_t> counts(static_cast<std::size_t>(comm.size()), 0);
+    std::vector<std::int64_t> counts(at(comm.size()), 0);
     for (const SparseEntry& e : entries) {
         ++counts[at(block_owner(size, comm.size(), e.row, row_tile))];
     }
@@ -98,8 +98,8 @@ SparseRows rows_from_entries(std::int64_t size, BlockRange range, std::vector<Sp
     matrix.columns.reserve(entries.size());  // at most: memory that is not written to is not taken
     matrix.values.reserve(entries.size());
     for (std::size_t r = 0; r + 1 < starts.size(); ++r) {
-        const auto row_begin = static_cast<std::size_t>(matrix.offsets.back());
-        for (auto k = static_cast<std::size_t>(starts[r]); k < static_cast<std::size_t>(starts[r + 1]); ++k) {
+        const auto row_begin = at(matrix.offsets.back());
+        for (auto k = at(starts[r]); k < at(starts[r + 1]); ++k) {
             if (matrix.columns.size() > row_begin && matrix.columns.back() == entries[k].column) {
                 matrix.values.back() += entries[k].value;
             } else {
@@ -119,7 +119,7 @@ SparseRows exchange_entries(const Comm& comm, std::int64_t size, const std::vect
     const Envelope out(outgoing);
     const Envelope in(incoming);
     std::vector<SparseEntry> packed = pack_by_owner(comm, size, out, entries);
-    std::vector<SparseEntry> mine(static_cast<std::size_t>(in.all));
+    std::vector<SparseEntry> mine(at(in.all));
     MPI_Datatype entry_type = MPI_DATATYPE_NULL;
     MPI_Type_contiguous(static_cast<int>(sizeof(SparseEntry)), MPI_BYTE, &entry_type);
     MPI_Type_commit(&entry_type);
@@ -132,7 +132,7 @@ SparseRows exchange_entries(const Comm& comm, std::int64_t size, const std::vect
 
 SparseRows gather_rows(const Comm& comm, const SparseRows& local) {
     if (comm.size() == 1) return local;
-    std::vector<std::int64_t> lengths(static_cast<std::size_t>(local.local_rows()));
+    std::vector<std::int64_t> lengths(at(local.local_rows()));
     for (std::size_t r = 0; r < lengths.size(); ++r) lengths[r] = local.offsets[r + 1] - local.offsets[r];
     SparseRows all;
     all.size = local.size;
@@ -146,7 +146,7 @@ SparseRows gather_rows(const Comm& comm, const SparseRows& local) {
 }
 
 std::vector<double> row_sums(const SparseRows& matrix) {
-    std::vector<double> sums(static_cast<std::size_t>(matrix.local_rows()), 0.0);
+    std::vector<double> sums(at(matrix.local_rows()), 0.0);
     for (std::size_t r = 0; r < sums.size(); ++r) {
         for (auto k = matrix.offsets[r]; k < matrix.offsets[r + 1]; ++k) {
             sums[r] += matrix.values[at(k)];
@@ -176,18 +176,18 @@ SparseRows weighted_sum(std::span<const WeightedMatrix> terms) {
     sum.values.reserve(entries);
     sum.offsets.reserve(first.offsets.size());
     std::vector<std::pair<int, double>> row;
-    for (std::size_t r = 0; r < static_cast<std::size_t>(first.local_rows()); ++r) {
+    for (std::size_t r = 0; r < at(first.local_rows()); ++r) {
         row.clear();
         for (const WeightedMatrix& term : terms) {
             if (term.weight == 0.0) continue;
             for (auto k = term.matrix->offsets[r]; k < term.matrix->offsets[r + 1]; ++k) {
-                const auto e = static_cast<std::size_t>(k);
+                const auto e = at(k);
                 row.emplace_back(term.matrix->columns[e], term.weight * term.matrix->values[e]);
             }
         }
         std::stable_sort(row.begin(), row.end(),
                          [](const auto& a, const auto& b) { return a.first < b.first; });
-        const auto row_begin = static_cast<std::size_t>(sum.offsets.back());
+        const auto row_begin = at(sum.offsets.back());
         for (const auto& [column, value] : row) {
             if (sum.columns.size() > row_begin && sum.columns.back() == column) {
                 sum.values.back() += value;
@@ -204,8 +204,8 @@ SparseRows weighted_sum(std::span<const WeightedMatrix> terms) {
 void drop_small_entries(SparseRows& matrix, double threshold) {
     std::size_t kept = 0;
     std::size_t next = 0;
-    for (std::size_t r = 0; r < static_cast<std::size_t>(matrix.local_rows()); ++r) {
-        for (; next < static_cast<std::size_t>(matrix.offsets[r + 1]); ++next) {
+    for (std::size_t r = 0; r < at(matrix.local_rows()); ++r) {
+        for (; next < at(matrix.offsets[r + 1]); ++next) {
             if (matrix.values[next] < threshold) continue;
             matrix.columns[kept] = matrix.columns[next];
             matrix.values[kept++] = matrix.values[next];

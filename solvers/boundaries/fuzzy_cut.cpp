@@ -104,7 +104,7 @@ std::vector<int> strip_faces(const DualGraph& graph, const std::vector<int>& lab
     });
     std::vector<int> strip;
     for (const int f : distance.reached) {
-        const auto face = static_cast<std::size_t>(f);
+        const auto face = at(f);
         if (movable[face] != 0 && distance.of_face[face] <= width) strip.push_back(f);
     }
     std::sort(strip.begin(), strip.end());
@@ -117,7 +117,7 @@ struct Holding {
     const std::vector<double>& cost;  // empty: nothing
 
     [[nodiscard]] double of(int face, int kept) const {
-        const auto f = static_cast<std::size_t>(face);
+        const auto f = at(face);
         return cost.empty() || label[f] != kept ? 0.0 : cost[f];
     }
 };

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -69,8 +71,7 @@ std::vector<char> minimum_cut(const std::vector<double>& source_capacity,
         add_arc_pair(flow, v, sink, whole(sink_capacity[v]), 0);
     }
     for (const CutArc& arc : arcs) {
-        add_arc_pair(flow, static_cast<std::size_t>(arc.from), static_cast<std::size_t>(arc.to),
-                     whole(arc.capacity), whole(arc.reverse_capacity));
+        add_arc_pair(flow, at(arc.from), at(arc.to), whole(arc.capacity), whole(arc.reverse_capacity));
     }
     boost::boykov_kolmogorov_max_flow(flow, get(&ArcData::capacity, flow), get(&ArcData::residual, flow),
                                       get(&ArcData::reverse, flow), get(&NodeData::predecessor, flow),

@@ -7,7 +7,9 @@
 #include <span>
 
 #include "solvers/kmeans/word_search.hpp"
+#include "src/base/index.hpp"
 #include "src/base/vector_clones.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -52,8 +54,7 @@ COSEG_VECTOR_CLONES void add_points(const float* points, std::span<const int> wo
 /// The words of one mesh's points and a lower bound of each point's distance to all other words.
 class MeshAssignment {
   public:
-    explicit MeshAssignment(WordedPoints& mesh)
-        : mesh_(mesh), others_(static_cast<std::size_t>(mesh.points->cols()), 0.0F) {
+    explicit MeshAssignment(WordedPoints& mesh) : mesh_(mesh), others_(at(mesh.points->cols()), 0.0F) {
         mesh_.word.assign(others_.size(), 0);
     }
 
@@ -77,13 +78,14 @@ class MeshAssignment {
         return search_active(search);
     }
 
-    /// Adds the sum of the points of each word (d x K) and their numbers (K) to totals[0 .. (d + 1) K).
-    void add_sums(Eigen::Index words, FixedPointSum& totals) const {
+    /// Adds the sum of the points of each word (d x K) and their numbers (K), each rounded to a multiple of
+    /// `unit`, to totals[0 .. (d + 1) K).
+    void add_sums(Eigen::Index words, double unit, ExactSum& totals) const {
         const Eigen::Index dims = mesh_.points->rows();
         Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(dims + 1, words);
         add_points(mesh_.points->data(), mesh_.word, dims, sums.data());
         for (Eigen::Index k = 0; k < sums.size(); ++k)
-            totals.add(static_cast<std::size_t>(k), sums.data()[k]);
+            totals.add_field(at(k), std::round(sums.data()[k] / unit) * unit);
     }
 
   private:
@@ -91,7 +93,7 @@ class MeshAssignment {
         search.search(*mesh_.points, active_, nearest_);
         std::int64_t changed = 0;
         for (std::size_t k = 0; k < active_.size(); ++k) {
-            const auto i = static_cast<std::size_t>(active_[k]);
+            const auto i = at(active_[k]);
             if (mesh_.word[i] != nearest_[k].word) ++changed;
             mesh_.word[i] = nearest_[k].word;
             others_[i] = nearest_[k].second_distance;
@@ -105,8 +107,13 @@ class MeshAssignment {
     std::vector<NearestWord> nearest_;
 };
 
-/// A bound of every entry of every mesh's sums, the same on all ranks.
-double bound_of_sums(const Comm& comm, const std::vector<WordedPoints>& local) {
+/// Bounds of every entry of the sums over one mesh and over all of them, the same on all ranks.
+struct SumBounds {
+    double of_a_mesh = 0.0;
+    double of_all = 0.0;
+};
+
+SumBounds bounds_of_sums(const Comm& comm, const std::vector<WordedPoints>& local) {
     double points = 1.0;
     double largest = 1.0;
     for (const WordedPoints& mesh : local) {
@@ -114,15 +121,20 @@ double bound_of_sums(const Comm& comm, const std::vector<WordedPoints>& local) {
         points = std::max(points, static_cast<double>(mesh.points->cols()));
         largest = std::max(largest, static_cast<double>(mesh.points->cwiseAbs().maxCoeff()));
     }
-    return all_max(comm, points) * all_max(comm, largest);
+    const double of_a_mesh = all_max(comm, points) * all_max(comm, largest);
+    return {of_a_mesh, of_a_mesh * static_cast<double>(all_sum(comm, std::ssize(local)))};
 }
 
-void move_to_means(const Comm& comm, const std::vector<MeshAssignment>& meshes, double bound,
+void move_to_means(const Comm& comm, const std::vector<MeshAssignment>& meshes, const SumBounds& bounds,
                    Eigen::MatrixXf& words) {
     const Eigen::Index dims = words.rows();
-    FixedPointSum totals(static_cast<std::size_t>((dims + 1) * words.cols()), bound);
-    for (const MeshAssignment& mesh : meshes) mesh.add_sums(words.cols(), totals);
-    const std::vector<double> sums = totals.all_sum(comm);
+    // Rounding each mesh's sums to this unit, a power of two, is far below the single precision of the words,
+    // but their last bits rest on it, and with them the labels of every earlier run.
+    const double unit = std::ldexp(1.0, std::ilogb(bounds.of_a_mesh) + 1 - 40);
+    ExactSum totals(at((dims + 1) * words.cols()), bounds.of_all, 0);
+    for (const MeshAssignment& mesh : meshes) mesh.add_sums(words.cols(), unit, totals);
+    totals.reduce(comm);
+    const std::vector<double>& sums = totals.field();
     for (Eigen::Index w = 0; w < words.cols(); ++w) {
         const double* sum = sums.data() + w * (dims + 1);
         if (!(sum[dims] > 0.0)) continue;
@@ -137,10 +149,10 @@ void lloyd_rounds(const Comm& comm, std::vector<WordedPoints>& local, int rounds
     meshes.reserve(local.size());
     const WordSearch start(words);
     for (WordedPoints& mesh : local) meshes.emplace_back(mesh).assign_all(start);
-    const double bound = bound_of_sums(comm, local);
+    const SumBounds bounds = bounds_of_sums(comm, local);
     for (int round = 0; round < rounds; ++round) {
         const Eigen::MatrixXf before = words;
-        move_to_means(comm, meshes, bound, words);
+        move_to_means(comm, meshes, bounds, words);
         const WordMoves moves = moves_between(before, words);
         const WordSearch search(words);
         std::int64_t changed = 0;

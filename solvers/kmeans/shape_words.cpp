@@ -108,7 +108,7 @@ Eigen::MatrixXf gather_in_canonical_order(const Comm& comm, const std::vector<Sh
 /// rank_of[w]: the place of word w among all words in lexicographic order of their centres.
 std::vector<int> canonical_numbers(const Eigen::MatrixXf& words) {
     const Eigen::Index dims = words.rows();
-    std::vector<int> order(static_cast<std::size_t>(words.cols()));
+    std::vector<int> order(at(words.cols()));
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
         const float* x = words.data() + a * dims;
@@ -156,7 +156,7 @@ std::vector<int> words_of(const Eigen::MatrixXf& context, const Eigen::MatrixXf&
         throw Error(ExitCode::internal, "shape contexts of " + std::to_string(context.rows()) +
                                             " entries, but words of " + std::to_string(centres.rows()));
     }
-    std::vector<int> columns(static_cast<std::size_t>(context.cols()));
+    std::vector<int> columns(at(context.cols()));
     std::iota(columns.begin(), columns.end(), 0);
     std::vector<NearestWord> nearest(columns.size());
     WordSearch(centres).search(context, columns, nearest);

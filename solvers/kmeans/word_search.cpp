@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solvers/numeric/blas.hpp"
 #include "src/base/index.hpp"
@@ -68,13 +69,10 @@ void WordSearch::search(const Eigen::MatrixXf& points, std::span<const int> colu
     for (Eigen::Index begin = 0; begin < total; begin += block_points) {
         const Eigen::Index count = std::min(block_points, total - begin);
         for (Eigen::Index i = 0; i < count; ++i) block.col(i) = points.col(columns[at(begin + i)]);
-        multiply_transposed(static_cast<int>(block_points), static_cast<int>(words_.cols()),
-                            static_cast<int>(dims), block.data(), static_cast<int>(dims), words_.data(),
-                            static_cast<int>(dims), 0.0F, inner_products.data(),
-                            static_cast<int>(block_points));
+        multiply_transposed(whole(std::as_const(block)), whole(words_), 0.0F, whole(inner_products));
         find_minima(inner_products, square_norms_, minima);
         for (Eigen::Index i = 0; i < count; ++i) {
-            const auto k = static_cast<std::size_t>(i);
+            const auto k = at(i);
             const float norm = square_norm(block.data() + i * dims, dims);
             // What rounding of the three terms may hide, so that second_distance stays a bound.
             const float rounding = 4e-6F * (norm + largest_square_norm_);

@@ -30,11 +30,11 @@ MeshScopeColumn::MeshScopeColumn(const FeatureStack& stack, const ColumnPenaltie
       target_(stack.columns.data() + static_cast<std::int64_t>(column.column) * stack.dimension),
       trial_weights_(column.weights.size(), 0.0),
       gradient_(column.weights.size(), 0.0),
-      reconstruction_(static_cast<std::size_t>(stack.dimension), 0.0),
+      reconstruction_(at(stack.dimension), 0.0),
       trial_reconstruction_(reconstruction_),
       group_sums_(column.group_begin.size() - 1, 0.0),
       trial_group_sums_(group_sums_),
-      shift_(static_cast<std::size_t>(stack.features), 0.0) {
+      shift_(at(stack.features), 0.0) {
     // A step of length 0 turns the given weights, which already are a fixed point of it, into the current
     // point.
     propose(0.0);
@@ -42,16 +42,15 @@ MeshScopeColumn::MeshScopeColumn(const FeatureStack& stack, const ColumnPenaltie
 }
 
 double MeshScopeColumn::shrink_groups(double step) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     double penalty = 0.0;
     for (std::size_t g = 0; g + 1 < column_.group_begin.size(); ++g) {
-        const auto begin = static_cast<std::size_t>(column_.group_begin[g]) * features;
-        const auto end = static_cast<std::size_t>(column_.group_begin[g + 1]) * features;
+        const auto begin = at(column_.group_begin[g]) * features;
+        const auto end = at(column_.group_begin[g + 1]) * features;
         for (std::size_t entry = begin; entry < end; ++entry)
             trial_weights_[entry] = column_.weights[entry] - step * gradient_[entry];
-        const double sum =
-            exclusive_shrink(std::span(trial_weights_).subspan(begin, end - begin), stack_.features, step,
-                             penalties_.alpha, penalties_.beta, penalties_.lambda, scratch_);
+        const double sum = exclusive_shrink(std::span(trial_weights_).subspan(begin, end - begin),
+                                            stack_.features, step, penalties_, scratch_);
         trial_group_sums_[g] = sum;
         penalty += penalties_.lambda * sum * sum + penalties_.alpha * sum;
     }
@@ -60,7 +59,7 @@ double MeshScopeColumn::shrink_groups(double step) {
 
 void MeshScopeColumn::reconstruct_trial() {
     std::fill(trial_reconstruction_.begin(), trial_reconstruction_.end(), 0.0);
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     for (std::size_t p = 0; p < column_.rows.size(); ++p) {
         const double* x =
             stack_.columns.data() + static_cast<std::int64_t>(column_.rows[p]) * stack_.dimension;
@@ -109,20 +108,20 @@ void MeshScopeColumn::compute_gradient() {
     }
     for (std::size_t p = 0; p < column_.rows.size(); ++p) {
         feature_products(stack_, column_.rows[p], trial_reconstruction_.data(),
-                         gradient_.data() + p * static_cast<std::size_t>(stack_.features));
+                         gradient_.data() + p * at(stack_.features));
     }
 }
 
 double MeshScopeColumn::first_step() const noexcept { return 1.0 / (2.0 * stack_.largest_inner); }
 
 double MeshScopeColumn::raised_decrease() {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     double decrease = 0.0;
     for (const double z : reconstruction_) decrease += z * z;
     for (std::size_t g = 0; g + 1 < column_.group_begin.size(); ++g) {
         double price = 0.0;
         for (int p = column_.group_begin[g]; p < column_.group_begin[g + 1]; ++p) {
-            const double* gradient = gradient_.data() + static_cast<std::size_t>(p) * features;
+            const double* gradient = gradient_.data() + at(p) * features;
             price = std::max(price, positive_norm(gradient, features, penalties_.beta) - penalties_.alpha);
         }
         if (price > 0.0) decrease += price * price / (4.0 * penalties_.lambda);
@@ -131,14 +130,14 @@ double MeshScopeColumn::raised_decrease() {
 }
 
 double MeshScopeColumn::shifted_decrease() {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     std::fill(shift_.begin(), shift_.end(), 0.0);
     double decrease = 0.0;
     for (std::size_t g = 0; g + 1 < column_.group_begin.size(); ++g) {
         const double limit = penalties_.alpha + 2.0 * penalties_.lambda * group_sums_[g];
         decrease += penalties_.lambda * group_sums_[g] * group_sums_[g];
         for (int p = column_.group_begin[g]; p < column_.group_begin[g + 1]; ++p) {
-            const double* gradient = gradient_.data() + static_cast<std::size_t>(p) * features;
+            const double* gradient = gradient_.data() + at(p) * features;
             const double norm = positive_norm(gradient, features, penalties_.beta);
             if (norm <= limit) continue;
             for (std::size_t h = 0; h < features; ++h) {

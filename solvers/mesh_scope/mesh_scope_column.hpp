@@ -11,13 +11,6 @@
 
 namespace coseg {
 
-/// The penalties of a column's problem.
-struct ColumnPenalties {
-    double alpha = 0.0;
-    double beta = 0.0;
-    double lambda = 0.0;
-};
-
 /// Whether it pays to compute the bound that shifts the dual. Raising the price of a group costs in inverse
 /// proportion to lambda, so that shifting pays where lambda is small against the columns' squared norms.
 inline bool shift_pays(const FeatureStack& stack, const ColumnPenalties& penalties) {

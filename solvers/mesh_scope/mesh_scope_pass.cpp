@@ -23,7 +23,7 @@ struct RowRun {
 std::vector<RowRun> row_runs(const MeshOrder& meshes, const std::vector<int>& allowed) {
     std::vector<RowRun> merged;
     for (const int g : allowed) {
-        const auto gs = static_cast<std::size_t>(g);
+        const auto gs = at(g);
         const RowRun group{meshes.group_begin[gs], meshes.group_begin[gs + 1]};
         if (!merged.empty() && merged.back().end == group.begin) {
             merged.back().end = group.end;
@@ -106,7 +106,7 @@ MeshScopePass::Survey MeshScopePass::start_survey(const PassColumn& column, doub
     survey.shifts = shift_pays(stack_, penalties_);
     survey.leaders.resize(meshes_.group_mesh.size());
     survey.largest2.assign(meshes_.group_mesh.size(), 0.0);
-    survey.shift.assign(static_cast<std::size_t>(stack_.features), 0.0);
+    survey.shift.assign(at(stack_.features), 0.0);
     const double* target =
         stack_.columns.data() + static_cast<std::int64_t>(column.working->column) * stack_.dimension;
     double squares = 0.0;
@@ -127,7 +127,7 @@ MeshScopePass::Survey MeshScopePass::start_survey(const PassColumn& column, doub
 
 template <class Real>
 void MeshScopePass::score_rows(Survey& survey, const Scores<Real>& scores) {
-    const auto count = static_cast<std::size_t>(scores.end - scores.begin);
+    const auto count = at(scores.end - scores.begin);
     const Real beta = static_cast<Real>(penalties_.beta);
     std::vector<Real>& squares = std::get<std::vector<Real>>(squares_);
     squares.assign(count, Real{0});
@@ -147,7 +147,7 @@ void MeshScopePass::score_rows(Survey& survey, const Scores<Real>& scores) {
 template <class Real>
 void MeshScopePass::score_group(Survey& survey, int group, int begin, int end, const Real* squares,
                                 const Scores<Real>& scores) {
-    const auto g = static_cast<std::size_t>(group);
+    const auto g = at(group);
     GroupLeaders& leaders = survey.leaders[g];
     const std::vector<int>& working = survey.column->working->rows;
     const double limit = penalties_.alpha + 2.0 * penalties_.lambda * survey.column->group_sums[g];
@@ -228,14 +228,16 @@ std::vector<ColumnVerdict> MeshScopePass::survey_all(const std::vector<PassColum
                 2.0 * (stack_.columns(k, column.working->column) - column.reconstruction[k]));
         }
     }
-    std::vector<Real> buffer(static_cast<std::size_t>(chunk_rows * width * stack_.features));
+    std::vector<Real> buffer(at(chunk_rows * width * stack_.features));
     const std::int64_t stride = static_cast<std::int64_t>(chunk_rows) * width;
     for (const RowRun& run : row_runs(meshes_, allowed)) {
         for (int h = 0; h < stack_.features; ++h) {
             const int from = stack_.offset[at(h)];
-            multiply_transposed(run.end - run.begin, width, stack_.rows_of(h),
-                                stacked + static_cast<std::int64_t>(run.begin) * rows + from, rows,
-                                duals.data() + from, rows, Real{0}, buffer.data() + h * stride, chunk_rows);
+            const int height = stack_.rows_of(h);
+            const int run_rows = run.end - run.begin;
+            const Real* first = stacked + static_cast<std::int64_t>(run.begin) * rows + from;
+            multiply_transposed({first, height, run_rows, rows}, {duals.data() + from, height, width, rows},
+                                Real{0}, {buffer.data() + h * stride, run_rows, width, chunk_rows});
         }
         for (int c = 0; c < width; ++c) {
             score_rows<Real>(

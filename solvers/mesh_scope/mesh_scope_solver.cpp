@@ -10,8 +10,9 @@
 
 #include "solvers/mesh_scope/mesh_scope_column.hpp"
 #include "solvers/mesh_scope/mesh_scope_pass.hpp"
-#include "solvers/numeric/exact_sum.hpp"
 #include "src/base/index.hpp"
+#include "src/base/stopwatch.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -55,8 +56,7 @@ class MeshScopeSolver {
           meshes_(sort_by_mesh(problem.mesh_of)),
           stack_(stack_features(comm, problem, meshes_.order)),
           pass_(comm, stack_, meshes_, penalties_),
-          allowed_meshes_(problem.allowed_meshes),
-          start_(MPI_Wtime()) {}
+          allowed_meshes_(problem.allowed_meshes) {}
 
     /// The columns [begin, end) of the problem, each solved; a function of these columns alone.
     SolvedTile solve_tile(std::int64_t begin, std::int64_t end);
@@ -69,7 +69,7 @@ class MeshScopeSolver {
   private:
     [[nodiscard]] Column start_column(std::int64_t patch) const;
     [[nodiscard]] std::vector<int> allowed_groups(int mesh) const;
-    [[nodiscard]] bool out_of_time() const { return MPI_Wtime() - start_ >= options_.max_seconds; }
+    [[nodiscard]] bool out_of_time() const { return clock_.seconds() >= options_.max_seconds; }
     int solve_batch(std::span<Column*> batch, const std::vector<int>& allowed);
     void judge(Column& column, const ColumnVerdict& verdict) const;
     bool add_violators(Column& column, const ColumnVerdict& verdict) const;
@@ -82,7 +82,7 @@ class MeshScopeSolver {
     FeatureStack stack_;
     MeshScopePass pass_;
     const std::vector<std::vector<int>>& allowed_meshes_;
-    double start_;
+    Stopwatch clock_;
     bool timed_out_ = false;
 };
 
@@ -90,7 +90,7 @@ Column MeshScopeSolver::start_column(std::int64_t patch) const {
     Column column;
     column.working.column = meshes_.place[at(patch)];
     column.working.group_begin = {0};
-    column.reconstruction.assign(static_cast<std::size_t>(stack_.dimension), 0.0);
+    column.reconstruction.assign(at(stack_.dimension), 0.0);
     column.group_sums.assign(meshes_.group_mesh.size(), 0.0);
     for (int k = 0; k < stack_.dimension; ++k) {
         const double x = stack_.columns(k, column.working.column);
@@ -213,7 +213,7 @@ bool MeshScopeSolver::add_violators(Column& column, const ColumnVerdict& verdict
         }
     }
     if (rows.empty()) return false;
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     WorkingColumn& working = column.working;
     const std::vector<int> old_rows = std::move(working.rows);
     const std::vector<double> old_weights = std::move(working.weights);
@@ -261,7 +261,7 @@ void MeshScopeSolver::solve_working_set(Column& column) {
 
 /// Appends the column's nonzero pairs, rows back in the problem's order.
 void MeshScopeSolver::append_column(const Column& column, SolvedTile& tile) const {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     std::vector<std::pair<int, std::size_t>> entries;
     for (std::size_t p = 0; p < column.working.rows.size(); ++p) {
         const auto begin = column.working.weights.begin() + static_cast<std::ptrdiff_t>(p * features);
@@ -286,9 +286,9 @@ void make_room(const SolvedTile& tile, SparseCoefficients& sparse) {
     const auto columns = static_cast<double>(sparse.offsets.size() + tile.offsets.size() - 2);
     const double expected =
         1.2 * static_cast<double>(pairs) / columns * static_cast<double>(sparse.columns.size());
-    const std::size_t room = std::max(pairs + pairs / 4, static_cast<std::size_t>(expected));
+    const std::size_t room = std::max(pairs + pairs / 4, at(expected));
     sparse.rows.reserve(room);
-    sparse.values.reserve(room * static_cast<std::size_t>(sparse.features));
+    sparse.values.reserve(room * at(sparse.features));
 }
 
 /// Takes a finished tile into this rank's part of the answer.
@@ -352,8 +352,8 @@ void finish_result(const Comm& comm, const Totals& totals, const MeshScopeSolver
     result.working_pairs = all_sum(comm, totals.working_pairs);
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
     finish_history(comm, totals, stack, result);
-    const bool timed_out = all_max(comm, solver.timed_out() ? 1.0 : 0.0) > 0.0;
-    const bool limited = all_max(comm, totals.limited ? 1.0 : 0.0) > 0.0;
+    const bool timed_out = any_rank(comm, solver.timed_out());
+    const bool limited = any_rank(comm, totals.limited);
     if (result.relative_gap <= gap) {
         result.reason = StopReason::gap_reached;
     } else if (limited) {
@@ -370,7 +370,7 @@ SolveResult solve_mesh_scope(const Comm& comm, const SubspaceProblem& problem, c
     SolveResult result;
     const BlockRange owned = block_range(problem.size(), comm.size(), comm.rank(), coefficient_tile);
     result.coefficients = {problem.size(), owned, problem.feature_count(), {0}, {}, {}};
-    ExactSum sums(0, 1.0, 2);
+    ExactSum sums(2);
     Totals totals;
     bool stopped = false;
     SolverCheckpoint* checkpoint = options.checkpoint;

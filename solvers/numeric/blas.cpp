@@ -15,22 +15,25 @@ void openblas_set_num_threads(int threads) __attribute__((weak));
 
 namespace coseg {
 
-void multiply_transposed(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double keep,
-                         double* c, int ldc) {
+void multiply_transposed(const MatrixView<const double>& A, const MatrixView<const double>& B, double keep,
+                         const MatrixView<double>& C) {
     const double one = 1.0;
-    dgemm_("T", "N", &m, &n, &k, &one, a, &lda, b, &ldb, &keep, c, &ldc);
+    dgemm_("T", "N", &C.rows, &C.columns, &A.rows, &one, A.data, &A.stride, B.data, &B.stride, &keep, C.data,
+           &C.stride);
 }
 
-void multiply_transposed(int m, int n, int k, const float* a, int lda, const float* b, int ldb, float keep,
-                         float* c, int ldc) {
+void multiply_transposed(const MatrixView<const float>& A, const MatrixView<const float>& B, float keep,
+                         const MatrixView<float>& C) {
     const float one = 1.0F;
-    sgemm_("T", "N", &m, &n, &k, &one, a, &lda, b, &ldb, &keep, c, &ldc);
+    sgemm_("T", "N", &C.rows, &C.columns, &A.rows, &one, A.data, &A.stride, B.data, &B.stride, &keep, C.data,
+           &C.stride);
 }
 
-void multiply(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double keep, double* c,
-              int ldc) {
+void multiply(const MatrixView<const double>& A, const MatrixView<const double>& B, double keep,
+              const MatrixView<double>& C) {
     const double one = 1.0;
-    dgemm_("N", "N", &m, &n, &k, &one, a, &lda, b, &ldb, &keep, c, &ldc);
+    dgemm_("N", "N", &C.rows, &C.columns, &A.columns, &one, A.data, &A.stride, B.data, &B.stride, &keep,
+           C.data, &C.stride);
 }
 
 void use_one_blas_thread() {

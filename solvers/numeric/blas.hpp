@@ -1,17 +1,38 @@
 #pragma once
 // The matrix products that carry the solvers' weight, from the machine's BLAS.
 
+#include <Eigen/Core>
+
 namespace coseg {
 
-/// C = A^T B + keep C; A is k x m, B is k x n, C is m x n, column major with the given leading dimensions.
-void multiply_transposed(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double keep,
-                         double* c, int ldc);
-void multiply_transposed(int m, int n, int k, const float* a, int lda, const float* b, int ldb, float keep,
-                         float* c, int ldc);
+/// A matrix where it lies: column major, column j begins at data + j * stride.
+template <class T>
+struct MatrixView {
+    T* data;
+    int rows;
+    int columns;
+    int stride;
+};
 
-/// C = A B + keep C; A is m x k, B is k x n.
-void multiply(int m, int n, int k, const double* a, int lda, const double* b, int ldb, double keep, double* c,
-              int ldc);
+/// All of a matrix.
+inline MatrixView<const float> whole(const Eigen::MatrixXf& matrix) {
+    const auto rows = static_cast<int>(matrix.rows());
+    return {matrix.data(), rows, static_cast<int>(matrix.cols()), rows};
+}
+inline MatrixView<float> whole(Eigen::MatrixXf& matrix) {
+    const auto rows = static_cast<int>(matrix.rows());
+    return {matrix.data(), rows, static_cast<int>(matrix.cols()), rows};
+}
+
+/// C = A^T B + keep C.
+void multiply_transposed(const MatrixView<const double>& A, const MatrixView<const double>& B, double keep,
+                         const MatrixView<double>& C);
+void multiply_transposed(const MatrixView<const float>& A, const MatrixView<const float>& B, float keep,
+                         const MatrixView<float>& C);
+
+/// C = A B + keep C.
+void multiply(const MatrixView<const double>& A, const MatrixView<const double>& B, double keep,
+              const MatrixView<double>& C);
 
 /// Keeps a threaded BLAS to one thread: ranks are our parallelism, and threads of several ranks would fight
 /// for the same cores.

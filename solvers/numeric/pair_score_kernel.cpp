@@ -25,70 +25,66 @@ struct Vector {
     typedef float type __attribute__((vector_size(width * sizeof(float)), may_alias, aligned(sizeof(float))));
 };
 
-/// A block of `vectors` times `width` rows and `columns` columns, whose sums stay in registers.
+/// A block of `vectors` times `width` rows and `columns` columns, whose sums stay in registers. Of the columns' groups
+/// only the first.
 template <int width, int vectors, int columns>
-COSEG_INLINE void score_block(const float* rows, const float* duals, int depth, const float* prices,
-                              const float* errors, float* scores, float* squares) {
+COSEG_INLINE void score_block(ScoredRows rows, ScoredColumns group, int depth, PairScores to) {
     using V = typename Vector<width>::type;
     V sum[vectors][columns] = {};
-    for (int k = 0; k < depth; ++k, rows += panel_rows, duals += group_columns) {
+    for (int k = 0; k < depth; ++k, rows.values += panel_rows, group.values += group_columns) {
         V x[vectors];
-        for (int v = 0; v < vectors; ++v) x[v] = *reinterpret_cast<const V*>(rows + v * width);
+        for (int v = 0; v < vectors; ++v) x[v] = *reinterpret_cast<const V*>(rows.values + v * width);
         for (int c = 0; c < columns; ++c) {
-            const V u = V{} + duals[c];
+            const V u = V{} + group.values[c];
             for (int v = 0; v < vectors; ++v) sum[v][c] += x[v] * u;
         }
     }
     for (int v = 0; v < vectors; ++v) {
-        const V price = *reinterpret_cast<const V*>(prices + v * width);
+        const V price = *reinterpret_cast<const V*>(rows.prices + v * width);
         for (int c = 0; c < columns; ++c) {
             const int place = c * panel_rows + v * width;
-            *reinterpret_cast<V*>(scores + place) = sum[v][c];
-            const V excess = sum[v][c] + errors[c] - price;
+            *reinterpret_cast<V*>(to.scores + place) = sum[v][c];
+            const V excess = sum[v][c] + group.errors[c] - price;
             const V positive = excess > 0.0F ? excess : V{};
-            *reinterpret_cast<V*>(squares + place) += positive * positive;
+            *reinterpret_cast<V*>(to.squares + place) += positive * positive;
         }
     }
 }
 
 /// All groups, in blocks of the given shape.
 template <int width, int vectors, int columns>
-COSEG_INLINE void score_groups(const float* rows, const float* duals, int depth, int groups,
-                               const float* prices, const float* errors, float* scores, float* squares) {
-    for (int g = 0; g < groups; ++g) {
+COSEG_INLINE void score_groups(ScoredRows rows, ScoredColumns group, int depth, PairScores to) {
+    for (int g = 0; g < group.groups; ++g) {
         for (int r = 0; r < panel_rows; r += vectors * width) {
             for (int c = 0; c < group_columns; c += columns) {
                 const int place = c * panel_rows + r;
-                score_block<width, vectors, columns>(rows + r, duals + c, depth, prices + r, errors + c,
-                                                     scores + place, squares + place);
+                score_block<width, vectors, columns>({rows.values + r, rows.prices + r},
+                                                     {group.values + c, group.errors + c, 1}, depth,
+                                                     {to.scores + place, to.squares + place});
             }
         }
-        duals += depth * group_columns;
-        errors += group_columns;
-        scores += panel_rows * group_columns;
-        squares += panel_rows * group_columns;
+        group.values += depth * group_columns;
+        group.errors += group_columns;
+        to.scores += panel_rows * group_columns;
+        to.squares += panel_rows * group_columns;
     }
 }
 
-using ScoreGroups = void (*)(const float*, const float*, int, int, const float*, const float*, float*,
-                             float*);
+using ScoreGroups = void (*)(const ScoredRows&, const ScoredColumns&, int, const PairScores&);
 
-void score_narrow(const float* rows, const float* duals, int depth, int groups, const float* prices,
-                  const float* errors, float* scores, float* squares) {
-    score_groups<4, 3, 4>(rows, duals, depth, groups, prices, errors, scores, squares);
+void score_narrow(const ScoredRows& rows, const ScoredColumns& columns, int depth, const PairScores& to) {
+    score_groups<4, 3, 4>(rows, columns, depth, to);
 }
 
 #if COSEG_CHOOSES_WIDTH
-__attribute__((target("avx2,fma"))) void score_avx2(const float* rows, const float* duals, int depth,
-                                                    int groups, const float* prices, const float* errors,
-                                                    float* scores, float* squares) {
-    score_groups<8, 3, 4>(rows, duals, depth, groups, prices, errors, scores, squares);
+__attribute__((target("avx2,fma"))) void score_avx2(const ScoredRows& rows, const ScoredColumns& columns,
+                                                    int depth, const PairScores& to) {
+    score_groups<8, 3, 4>(rows, columns, depth, to);
 }
 
-__attribute__((target("avx512f,fma"))) void score_avx512(const float* rows, const float* duals, int depth,
-                                                         int groups, const float* prices, const float* errors,
-                                                         float* scores, float* squares) {
-    score_groups<16, 3, 8>(rows, duals, depth, groups, prices, errors, scores, squares);
+__attribute__((target("avx512f,fma"))) void score_avx512(const ScoredRows& rows, const ScoredColumns& columns,
+                                                         int depth, const PairScores& to) {
+    score_groups<16, 3, 8>(rows, columns, depth, to);
 }
 #endif
 
@@ -102,10 +98,9 @@ ScoreGroups widest() {
 
 }  // namespace
 
-void score_pairs(const float* rows, const float* columns, int depth, int groups, const float* prices,
-                 const float* errors, float* scores, float* squares) {
+void score_pairs(const ScoredRows& rows, const ScoredColumns& columns, int depth, const PairScores& to) {
     static const ScoreGroups score = widest();
-    score(rows, columns, depth, groups, prices, errors, scores, squares);
+    score(rows, columns, depth, to);
 }
 
 COSEG_FOR_EVERY_WIDTH

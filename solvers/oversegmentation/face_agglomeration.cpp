@@ -24,7 +24,7 @@ class ContactLists {
     explicit ContactLists(const WeightedGraph& graph);
     [[nodiscard]] std::span<const Contact> of(int group) const {
         const Place& place = places_[at(group)];
-        return {contacts_.data() + place.begin, static_cast<std::size_t>(place.size)};
+        return {contacts_.data() + place.begin, at(place.size)};
     }
     void unite(int a, int b);
     void redirect(int neighbor, int from, int to);
@@ -48,7 +48,7 @@ ContactLists::ContactLists(const WeightedGraph& graph) {
     places_.reserve(graph.mass.size());
     for (std::size_t v = 0; v < graph.mass.size(); ++v) {
         const int size = graph.offsets[v + 1] - graph.offsets[v];
-        places_.push_back({static_cast<std::size_t>(graph.offsets[v]), size, size});
+        places_.push_back({at(graph.offsets[v]), size, size});
     }
 }
 
@@ -79,7 +79,7 @@ void ContactLists::unite(int a, int b) {
     if (size > place.room) {
         place.begin = contacts_.size();
         place.room = 2 * size;
-        contacts_.resize(contacts_.size() + static_cast<std::size_t>(place.room));
+        contacts_.resize(contacts_.size() + at(place.room));
     }
     place.size = size;
     std::copy(both_.begin(), both_.end(), contacts_.begin() + static_cast<std::ptrdiff_t>(place.begin));

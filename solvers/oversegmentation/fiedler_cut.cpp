@@ -122,9 +122,9 @@ std::vector<double> distances_from(const WeightedGraph& graph, int start) {
     std::vector<int> queue{start};
     distance[at(start)] = 0.0;
     for (std::size_t head = 0; head < queue.size(); ++head) {
-        const auto v = static_cast<std::size_t>(queue[head]);
+        const auto v = at(queue[head]);
         for (int k = graph.offsets[v]; k < graph.offsets[v + 1]; ++k) {
-            const auto u = static_cast<std::size_t>(graph.neighbors[at(k)]);
+            const auto u = at(graph.neighbors[at(k)]);
             if (distance[u] >= 0.0) continue;
             distance[u] = distance[v] + 1.0;
             queue.push_back(static_cast<int>(u));
@@ -152,9 +152,9 @@ TwoWayCut sweep_cut(const WeightedGraph& graph, const std::vector<double>& key) 
     double mass = 0.0;
     std::size_t best_size = 1;
     for (std::size_t size = 1; size < order.size(); ++size) {
-        const auto v = static_cast<std::size_t>(order[size - 1]);
+        const auto v = at(order[size - 1]);
         for (int k = graph.offsets[v]; k < graph.offsets[v + 1]; ++k) {
-            const auto slot = static_cast<std::size_t>(k);
+            const auto slot = at(k);
             cut += is_in[at(graph.neighbors[slot])] != 0 ? -graph.weights[slot] : graph.weights[slot];
         }
         is_in[v] = 1;

@@ -13,9 +13,7 @@ constexpr std::size_t fan_out = 4;  // a shallower heap than the binary one, and
 
 }  // namespace
 
-MergeQueue::MergeQueue(int groups) : slot_of_(static_cast<std::size_t>(groups), -1) {
-    heap_.reserve(slot_of_.size());
-}
+MergeQueue::MergeQueue(int groups) : slot_of_(at(groups), -1) { heap_.reserve(slot_of_.size()); }
 
 void MergeQueue::place(std::size_t slot, const MergeCandidate& candidate) {
     heap_[slot] = candidate;
@@ -56,7 +54,7 @@ void MergeQueue::set(const MergeCandidate& candidate) {
         slot = static_cast<int>(heap_.size());
         heap_.push_back(candidate);
     }
-    settle(static_cast<std::size_t>(slot), candidate);
+    settle(at(slot), candidate);
 }
 
 void MergeQueue::remove(int owner) {
@@ -64,7 +62,7 @@ void MergeQueue::remove(int owner) {
     if (slot < 0) return;
     const MergeCandidate last = heap_.back();
     heap_.pop_back();
-    if (last.owner != owner) settle(static_cast<std::size_t>(slot), last);
+    if (last.owner != owner) settle(at(slot), last);
 }
 
 }  // namespace coseg

@@ -44,7 +44,7 @@ WeightedGraph noisy_face_graph(const FaceGeometry& geometry, const DualGraph& gr
     }
     const double smallest_area =
         geometry.total_area > 0.0 ? smallest_share * geometry.total_area / graph.face_count : 1.0;
-    std::vector<double> mass(static_cast<std::size_t>(graph.face_count));
+    std::vector<double> mass(at(graph.face_count));
     for (int f = 0; f < graph.face_count; ++f) {
         mass[at(f)] = std::max(geometry.area[f], smallest_area);
     }
@@ -78,7 +78,7 @@ std::vector<std::vector<int>> pieces_of_cut(const WeightedGraph& graph, const Re
         const std::vector<int> component = connected_components(induced_subgraph(graph, nodes));
         const auto first = pieces.size();
         for (std::size_t k = 0; k < nodes.size(); ++k) {
-            const auto piece = first + static_cast<std::size_t>(component[k]);
+            const auto piece = first + at(component[k]);
             if (piece == pieces.size()) pieces.emplace_back();
             pieces[piece].push_back(nodes[k]);
         }
@@ -97,7 +97,7 @@ std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
     std::vector<std::vector<int>> pieces;
     const std::vector<int> component = connected_components(graph);
     for (int v = 0; v < graph.node_count(); ++v) {
-        const auto c = static_cast<std::size_t>(component[at(v)]);
+        const auto c = at(component[at(v)]);
         if (c == pieces.size()) pieces.emplace_back();
         pieces[c].push_back(v);
     }
@@ -107,8 +107,8 @@ std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
         next.push(static_cast<int>(regions.size()) - 1);
     };
     for (auto& nodes : pieces) add(std::move(nodes));
-    while (next.size() < static_cast<std::size_t>(std::min(target, graph.node_count()))) {
-        const auto chosen = static_cast<std::size_t>(next.top());
+    while (next.size() < at(std::min(target, graph.node_count()))) {
+        const auto chosen = at(next.top());
         next.pop();
         pieces = pieces_of_cut(graph, regions[chosen]);
         for (auto& nodes : pieces) add(std::move(nodes));
@@ -127,7 +127,7 @@ int renumber(std::vector<int>& labels) {
     std::vector<int> number;
     int count = 0;
     for (int& label : labels) {
-        const auto old = static_cast<std::size_t>(label);
+        const auto old = at(label);
         if (old >= number.size()) number.resize(old + 1, -1);
         if (number[old] < 0) number[old] = count++;
         label = number[old];
@@ -139,9 +139,8 @@ int renumber(std::vector<int>& labels) {
 int closest_neighbor(const WeightedGraph& graph, int node) {
     int closest = -1;
     double largest = 0.0;
-    const auto v = static_cast<std::size_t>(node);
-    for (auto k = static_cast<std::size_t>(graph.offsets[v]);
-         k < static_cast<std::size_t>(graph.offsets[v + 1]); ++k) {
+    const auto v = at(node);
+    for (auto k = at(graph.offsets[v]); k < at(graph.offsets[v + 1]); ++k) {
         if (graph.weights[k] <= largest) continue;
         largest = graph.weights[k];
         closest = graph.neighbors[k];
@@ -173,7 +172,7 @@ std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& grap
     if (options.patches < 1 || !(options.noise >= 0.0)) {
         throw Error(ExitCode::usage, "an over-segmentation needs at least 1 patch and a noise of at least 0");
     }
-    std::vector<int> patch(static_cast<std::size_t>(graph.face_count));
+    std::vector<int> patch(at(graph.face_count));
     std::iota(patch.begin(), patch.end(), 0);
     if (graph.face_count <= options.patches) return patch;
     const WeightedGraph faces = noisy_face_graph(geometry, graph, options.noise, seed);
@@ -185,17 +184,6 @@ std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& grap
     for (std::size_t f = 0; f < patch.size(); ++f) patch[f] = region[at(super_face[f])];
     renumber(patch);
     return patch;
-}
-
-std::vector<std::vector<int>> oversegment_all(const FaceGeometry& geometry, const DualGraph& graph,
-                                              const OversegmentationOptions& options, int count,
-                                              std::uint64_t seed) {
-    std::vector<std::vector<int>> all;
-    for (int k = 0; k < count; ++k) {
-        all.push_back(
-            oversegment(geometry, graph, options, hash_words({seed, static_cast<std::uint64_t>(k)})));
-    }
-    return all;
 }
 
 }  // namespace coseg

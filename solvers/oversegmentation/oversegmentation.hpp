@@ -40,9 +40,4 @@ struct OversegmentationOptions {
 std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& graph,
                              const OversegmentationOptions& options, std::uint64_t seed);
 
-/// `count` over-segmentations, number k with the seed hash_words({seed, k}).
-std::vector<std::vector<int>> oversegment_all(const FaceGeometry& geometry, const DualGraph& graph,
-                                              const OversegmentationOptions& options, int count,
-                                              std::uint64_t seed);
-
 }  // namespace coseg

@@ -54,11 +54,11 @@ WeightedGraph weighted_graph(std::vector<double> mass, const std::vector<Weighte
         ++graph.offsets[at(e.node_b) + 1];
     }
     std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
-    graph.neighbors.resize(static_cast<std::size_t>(graph.offsets.back()));
+    graph.neighbors.resize(at(graph.offsets.back()));
     graph.weights.resize(graph.neighbors.size());
     std::vector<int> next(graph.offsets.begin(), graph.offsets.end() - 1);
     const auto put = [&](int from, int to, double weight) {
-        const auto slot = static_cast<std::size_t>(next[at(from)]++);
+        const auto slot = at(next[at(from)]++);
         graph.neighbors[slot] = to;
         graph.weights[slot] = weight;
     };
@@ -79,10 +79,9 @@ WeightedGraph induced_subgraph(const WeightedGraph& graph, const std::vector<int
     std::vector<int> local(graph.mass.size(), -1);
     for (std::size_t k = 0; k < nodes.size(); ++k) local[at(nodes[k])] = static_cast<int>(k);
     for (const int node : nodes) {
-        const auto v = static_cast<std::size_t>(node);
+        const auto v = at(node);
         part.mass.push_back(graph.mass[v]);
-        for (auto k = static_cast<std::size_t>(graph.offsets[v]);
-             k < static_cast<std::size_t>(graph.offsets[v + 1]); ++k) {
+        for (auto k = at(graph.offsets[v]); k < at(graph.offsets[v + 1]); ++k) {
             const int neighbor = local[at(graph.neighbors[k])];
             if (neighbor < 0) continue;
             part.neighbors.push_back(neighbor);
@@ -94,13 +93,12 @@ WeightedGraph induced_subgraph(const WeightedGraph& graph, const std::vector<int
 }
 
 WeightedGraph contracted_graph(const WeightedGraph& graph, const std::vector<int>& group, int groups) {
-    std::vector<double> mass(static_cast<std::size_t>(groups), 0.0);
+    std::vector<double> mass(at(groups), 0.0);
     std::vector<WeightedEdge> edges;
     for (std::size_t v = 0; v < graph.mass.size(); ++v) {
         mass[at(group[v])] += graph.mass[v];
-        for (auto k = static_cast<std::size_t>(graph.offsets[v]);
-             k < static_cast<std::size_t>(graph.offsets[v + 1]); ++k) {
-            const auto u = static_cast<std::size_t>(graph.neighbors[k]);
+        for (auto k = at(graph.offsets[v]); k < at(graph.offsets[v + 1]); ++k) {
+            const auto u = at(graph.neighbors[k]);
             if (v < u && group[v] != group[u]) edges.push_back({group[v], group[u], graph.weights[k]});
         }
     }
@@ -116,7 +114,7 @@ std::vector<int> connected_components(const WeightedGraph& graph) {
         component[at(seed)] = count;
         stack.assign(1, seed);
         while (!stack.empty()) {
-            const auto v = static_cast<std::size_t>(stack.back());
+            const auto v = at(stack.back());
             stack.pop_back();
             for (int k = graph.offsets[v]; k < graph.offsets[v + 1]; ++k) {
                 const int u = graph.neighbors[at(k)];

@@ -54,13 +54,12 @@ std::pair<int, int> best_union(const ClusterLinks& links, const std::vector<int>
 
 ClusterLinks cluster_links(const Comm& comm, const SparseRows& affinity, const std::vector<int>& labels,
                            int clusters) {
-    const auto width = static_cast<std::size_t>(clusters);
-    std::vector<double> row_links(static_cast<std::size_t>(affinity.local_rows()) * width, 0.0);
-    for (std::size_t r = 0; r < static_cast<std::size_t>(affinity.local_rows()); ++r) {
-        for (auto k = static_cast<std::size_t>(affinity.offsets[r]);
-             k < static_cast<std::size_t>(affinity.offsets[r + 1]); ++k) {
+    const auto width = at(clusters);
+    std::vector<double> row_links(at(affinity.local_rows()) * width, 0.0);
+    for (std::size_t r = 0; r < at(affinity.local_rows()); ++r) {
+        for (auto k = at(affinity.offsets[r]); k < at(affinity.offsets[r + 1]); ++k) {
             const int label = labels[at(affinity.columns[k])];
-            row_links[r * width + static_cast<std::size_t>(label)] += affinity.values[k];
+            row_links[r * width + at(label)] += affinity.values[k];
         }
     }
     if (comm.size() > 1) row_links = all_gather(comm, std::span<const double>(row_links));
@@ -78,7 +77,7 @@ Eigen::MatrixXd area_shares(const std::vector<int>& labels, int clusters,
                             const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
     const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
     Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(clusters, meshes);
-    std::vector<double> mesh_area(static_cast<std::size_t>(meshes), 0.0);
+    std::vector<double> mesh_area(at(meshes), 0.0);
     for (std::size_t i = 0; i < labels.size(); ++i) {
         shares(labels[i], mesh_of[i]) += patch_area[i];
         mesh_area[at(mesh_of[i])] += patch_area[i];

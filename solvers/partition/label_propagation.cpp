@@ -4,6 +4,7 @@
 
 #include "solvers/affinity/affinity.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -15,9 +16,8 @@ constexpr double regularisation = 1e-9;
 Eigen::MatrixXd dense(const SparseRows& matrix) {
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(matrix.size, matrix.size);
     for (Eigen::Index r = 0; r < whole.rows(); ++r) {
-        const auto row = static_cast<std::size_t>(r);
-        for (auto k = static_cast<std::size_t>(matrix.offsets[row]);
-             k < static_cast<std::size_t>(matrix.offsets[row + 1]); ++k) {
+        const auto row = at(r);
+        for (auto k = at(matrix.offsets[row]); k < at(matrix.offsets[row + 1]); ++k) {
             whole(r, matrix.columns[k]) = matrix.values[k];
         }
     }
@@ -33,7 +33,7 @@ std::vector<int> propagate_labels(const PropagationInput& input, double within_m
     if (patches == 0 || input.evidence.rows() == 0 || !input.evidence.allFinite())
         throw Error(ExitCode::internal, "labels cannot be propagated: the links are empty or not finite");
     const BlockRange all{0, patches};
-    const std::vector<int> one_mesh(static_cast<std::size_t>(patches), 0);
+    const std::vector<int> one_mesh(at(patches), 0);
     const double scale = within_mesh_affinity * input.evidence.sum();
     const Eigen::MatrixXd ties = scale * (dense(adjacency_affinity(all, input.neighbors, one_mesh)) +
                                           dense(overlap_affinity(all, input.overlaps, patches)));

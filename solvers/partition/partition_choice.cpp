@@ -96,11 +96,10 @@ HistogramSums sums_of_parts(const Eigen::MatrixXf& histograms, const std::vector
 /// Whether the links of each row of this rank weigh more on the row's own part than on any other.
 std::vector<int> rows_matched(const SparseRows& links, const std::vector<int>& labels, int parts) {
     std::vector<int> matched;
-    std::vector<double> weight(static_cast<std::size_t>(parts));
-    for (std::size_t r = 0; r < static_cast<std::size_t>(links.local_rows()); ++r) {
+    std::vector<double> weight(at(parts));
+    for (std::size_t r = 0; r < at(links.local_rows()); ++r) {
         std::fill(weight.begin(), weight.end(), 0.0);
-        for (auto k = static_cast<std::size_t>(links.offsets[r]);
-             k < static_cast<std::size_t>(links.offsets[r + 1]); ++k) {
+        for (auto k = at(links.offsets[r]); k < at(links.offsets[r + 1]); ++k) {
             const int part = labels[at(links.columns[k])];
             weight[at(part)] += links.values[k];
         }
@@ -128,7 +127,7 @@ double boundary_concavity(const std::vector<GlobalPatchNeighbors>& neighbors,
 std::vector<double> mean_area_shares(const std::vector<int>& labels, int parts,
                                      const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
     const Eigen::MatrixXd of_mesh = area_shares(labels, parts, patch_area, mesh_of);
-    std::vector<double> shares(static_cast<std::size_t>(parts), 0.0);
+    std::vector<double> shares(at(parts), 0.0);
     for (int m = 0; m < of_mesh.cols(); ++m) {
         for (int p = 0; p < parts; ++p) shares[at(p)] += of_mesh(p, m);
     }
@@ -164,8 +163,8 @@ double overlap_agreement(const std::vector<GlobalPatchOverlap>& overlaps, const 
     std::vector<double> all(labels.size(), 0.0);
     std::vector<double> own(labels.size(), 0.0);
     for (const GlobalPatchOverlap& pair : overlaps) {
-        const auto a = static_cast<std::size_t>(pair.patch_a);
-        const auto b = static_cast<std::size_t>(pair.patch_b);
+        const auto a = at(pair.patch_a);
+        const auto b = at(pair.patch_b);
         for (const std::size_t i : {a, b}) {
             all[i] += pair.intersection_over_union;
             if (labels[a] == labels[b]) own[i] += pair.intersection_over_union;
@@ -185,8 +184,8 @@ double link_consistency(const Comm& comm, const SparseRows& links, const std::ve
                         const std::vector<double>& patch_area) {
     std::vector<int> matched = rows_matched(links, labels, parts);
     if (comm.size() > 1) matched = all_gather(comm, std::span<const int>(matched));
-    std::vector<double> area(static_cast<std::size_t>(parts), 0.0);
-    std::vector<double> found(static_cast<std::size_t>(parts), 0.0);
+    std::vector<double> area(at(parts), 0.0);
+    std::vector<double> found(at(parts), 0.0);
     for (std::size_t i = 0; i < labels.size(); ++i) {
         area[at(labels[i])] += patch_area[i];
         if (matched[i] == 1) found[at(labels[i])] += patch_area[i];
@@ -272,8 +271,8 @@ std::vector<int> canonical_labels(const std::vector<int>& labels, int parts,
     std::vector<int> order(shares.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
-        const auto x = static_cast<std::size_t>(a);
-        const auto y = static_cast<std::size_t>(b);
+        const auto x = at(a);
+        const auto y = at(b);
         const bool empty_x = lowest[x] == labels.size();
         const bool empty_y = lowest[y] == labels.size();
         if (empty_x != empty_y) return empty_y;

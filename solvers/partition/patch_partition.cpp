@@ -121,7 +121,7 @@ SparseRows graph_of(const CutTerms& terms, const CutInput& input, GraphWeights w
 }
 
 std::vector<int> cluster_sizes(const std::vector<int>& labels, int clusters) {
-    std::vector<int> sizes(static_cast<std::size_t>(clusters), 0);
+    std::vector<int> sizes(at(clusters), 0);
     for (const int label : labels) {
         if (label >= 0) ++sizes[at(label)];
     }
@@ -310,8 +310,7 @@ std::vector<LabelledOutcome> run_dealt(const Comm& comm, const Comm& self, const
     const std::vector<std::vector<int>> graphs = starts_by_graph(options.starts);
     std::vector<LabelledOutcome> mine;
     agree(comm, [&] {
-        for (auto q = static_cast<std::size_t>(comm.rank()); q < graphs.size();
-             q += static_cast<std::size_t>(comm.size())) {
+        for (auto q = at(comm.rank()); q < graphs.size(); q += at(comm.size())) {
             for (LabelledOutcome& r : run_graph(self, input, options, terms, graphs[q])) {
                 mine.push_back(std::move(r));
             }
@@ -354,7 +353,7 @@ std::size_t choose(std::vector<LabelledOutcome>& outcomes, const CutInput& input
 
 std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::vector<int>& mesh_of,
                               int parts) {
-    std::vector<std::vector<int>> meshes(static_cast<std::size_t>(parts));
+    std::vector<std::vector<int>> meshes(at(parts));
     for (std::size_t i = 0; i < mesh_of.size(); ++i) {
         meshes[at(part_of_patch[i])].push_back(mesh_of[i]);
     }

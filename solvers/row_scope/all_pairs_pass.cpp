@@ -67,10 +67,10 @@ AllPairsPass::AllPairsPass(const Comm& comm, const SubspaceProblem& problem, con
       limit2_(static_cast<float>(problem.alpha * problem.alpha * (1.0 - 64.0 * single_rounding))),
       rounding_(single_rounding * (longest_feature(stack) + 8)),
       panels_(comm, stack),
-      padded_rows_(static_cast<std::size_t>(panels_.count()) * panel_rows),
-      low_prices_(static_cast<std::size_t>(stack.features) * padded_rows_, std::numeric_limits<float>::max()),
+      padded_rows_(at(panels_.count()) * panel_rows),
+      low_prices_(at(stack.features) * padded_rows_, std::numeric_limits<float>::max()),
       tile_(std::make_unique<Tile>()),
-      pair_scores_(static_cast<std::size_t>(stack.features)) {
+      pair_scores_(at(stack.features)) {
     for (int h = 0; h < stack.features; ++h) {
         double largest = 0.0;
         for (Eigen::Index i = 0; i < stack.size; ++i) largest = std::max(largest, stack.norm(h, i));
@@ -116,8 +116,8 @@ void AllPairsPass::merge_row_candidates() {
 
 void AllPairsPass::start(const WorkingSet& working, const std::vector<double>& row_sums) {
     row_sums_ = row_sums;
-    const auto n = static_cast<std::size_t>(stack_.size);
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto n = at(stack_.size);
+    const auto features = at(stack_.features);
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t h = 0; h < features; ++h) {
             const double price = 2.0 * problem_.lambda * row_sums[i * features + h] + problem_.beta;
@@ -159,15 +159,14 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
     tile.width =
         static_cast<int>(std::min<std::int64_t>(tile_columns(stack_), working.columns.size() - begin));
     tile.groups = (tile.width + group_columns - 1) / group_columns;
-    tile.fits = std::span(working.fits)
-                    .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(tile.width));
+    tile.fits = std::span(working.fits).subspan(at(begin), at(tile.width));
     tile.next_working.assign(tile.fits.size(), 0);
     tile.reconstruction.resize(stack_.dimension, tile.width);
     tile.exact_duals.resize(stack_.dimension, tile.width);
-    const auto columns = static_cast<std::size_t>(tile.columns());
-    tile.duals.assign(static_cast<std::size_t>(stack_.dimension) * columns, 0.0F);
-    tile.errors.assign(static_cast<std::size_t>(stack_.features) * columns, 0.0F);
-    tile.scores.resize(static_cast<std::size_t>(stack_.features) * columns * panel_rows);
+    const auto columns = at(tile.columns());
+    tile.duals.assign(at(stack_.dimension) * columns, 0.0F);
+    tile.errors.assign(at(stack_.features) * columns, 0.0F);
+    tile.scores.resize(at(stack_.features) * columns * panel_rows);
     tile.squares.resize(columns * panel_rows);
     tile.least_squares.resize(columns);
     tile.doubtful_square.resize(columns);
@@ -183,16 +182,14 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
 /// for rounding.
 void AllPairsPass::score(Tile& tile, int panel) const {
     std::fill(tile.squares.begin(), tile.squares.end(), 0.0F);
-    const std::size_t first = static_cast<std::size_t>(panel) * panel_rows;
+    const std::size_t first = at(panel) * panel_rows;
     for (int h = 0; h < stack_.features; ++h) {
-        const auto feature = static_cast<std::size_t>(h);
+        const auto feature = at(h);
         const int from = stack_.offset[feature];
-        score_pairs(panels_.rows(panel, from),
-                    tile.duals.data() + static_cast<std::ptrdiff_t>(from) * tile.columns(), stack_.rows_of(h),
-                    tile.groups, low_prices_.data() + feature * padded_rows_ + first,
-                    tile.errors.data() + static_cast<std::ptrdiff_t>(h) * tile.columns(),
-                    tile.scores.data() + static_cast<std::ptrdiff_t>(h) * tile.columns() * panel_rows,
-                    tile.squares.data());
+        const std::ptrdiff_t columns = tile.columns();
+        score_pairs({panels_.rows(panel, from), low_prices_.data() + feature * padded_rows_ + first},
+                    {tile.duals.data() + from * columns, tile.errors.data() + h * columns, tile.groups},
+                    stack_.rows_of(h), {tile.scores.data() + h * columns * panel_rows, tile.squares.data()});
     }
 }
 
@@ -240,9 +237,9 @@ void AllPairsPass::exact_scores(const Tile& tile, int column, int row) {
 
 /// A pair that may violate its limit, going by its scores in single precision.
 void AllPairsPass::inspect_pair(const Tile& tile, int column, int row, PaperDualBound& bound) {
-    const auto c = static_cast<std::size_t>(column);
-    const std::size_t r = static_cast<std::size_t>(row) % panel_rows;
-    const auto columns = static_cast<std::size_t>(tile.columns());
+    const auto c = at(column);
+    const std::size_t r = at(row) % panel_rows;
+    const auto columns = at(tile.columns());
     double rounding = rounding_;
     if (tile.squares[c * panel_rows + r] < tile.doubtful_square[c]) {
         exact_scores(tile, column, row);
@@ -292,7 +289,7 @@ double AllPairsPass::finish(PaperDualBound& bound) {
 
 PassFindings AllPairsPass::first(const WorkingSet& working) {
     const PassClock clock(cost_);
-    start(working, std::vector<double>(static_cast<std::size_t>(stack_.size) * pair_scores_.size(), 0.0));
+    start(working, std::vector<double>(at(stack_.size) * pair_scores_.size(), 0.0));
     Tile& tile = *tile_;
     for (std::int64_t begin = 0; begin < working.columns.size(); begin += tile.width) {
         start_tile(working, begin, tile);
@@ -339,7 +336,7 @@ PassFindings AllPairsPass::collect(const WorkingSet& working, double lower_bound
     for (std::size_t c = 0; c < findings.entering.size(); ++c) {
         std::vector<int>& rows = findings.entering[c];
         for (int k = 0; k < kept; ++k) {
-            const Candidate& candidate = column_best_[c * kept + static_cast<std::size_t>(k)];
+            const Candidate& candidate = column_best_[c * kept + at(k)];
             if (candidate.place >= 0) rows.push_back(static_cast<int>(candidate.place));
         }
         std::sort(rows.begin(), rows.end());

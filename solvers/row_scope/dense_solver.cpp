@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "solvers/numeric/blas.hpp"
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/subspace/dual_bound.hpp"
 #include "solvers/subspace/feature_stack.hpp"
 #include "solvers/subspace/group_shrinkage.hpp"
 #include "solvers/subspace/spectral_projected_gradient.hpp"
 #include "solvers/subspace/stopping_rule.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -64,11 +64,9 @@ class DenseModel {
 
 DensePoint zero_point(const FeatureStack& stack, BlockRange columns) {
     DensePoint point;
-    point.weights.assign(static_cast<std::size_t>(stack.features),
-                         Eigen::MatrixXd::Zero(stack.size, columns.size()));
+    point.weights.assign(at(stack.features), Eigen::MatrixXd::Zero(stack.size, columns.size()));
     point.residual = -stack.columns.middleCols(columns.begin, columns.size());
-    point.row_sums.assign(static_cast<std::size_t>(stack.features) * static_cast<std::size_t>(stack.size),
-                          0.0);
+    point.row_sums.assign(at(stack.features) * at(stack.size), 0.0);
     point.objective = stack.squared_norm;
     return point;
 }
@@ -88,7 +86,7 @@ DenseModel::DenseModel(const Comm& comm, const SubspaceProblem& problem, const F
 
 /// The prox of W - step G for the columns [begin, end) of the owned ones.
 void DenseModel::shrink_tile(std::int64_t begin, std::int64_t end, double step) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     std::vector<double> pair(features);
     tile_distance2_ = tile_norms_ = tile_entries_ = 0.0;
     for (std::int64_t c = begin; c < end; ++c) {
@@ -116,14 +114,14 @@ void DenseModel::measure_tile(std::int64_t begin, std::int64_t end) {
     trial_.residual.middleCols(begin, width) = -stack_.columns.middleCols(columns_.begin + begin, width);
     for (int h = 0; h < stack_.features; ++h) {
         const Eigen::MatrixXd& weights = trial_.weights[at(h)];
-        multiply(stack_.rows_of(h), width, n, stack_.feature(h), rows, weights.data() + begin * n, n, 1.0,
-                 trial_.residual.data() + begin * rows + stack_.offset[at(h)], rows);
+        const int height = stack_.rows_of(h);
+        multiply({stack_.feature(h), height, n, rows}, {weights.data() + begin * n, n, width, n}, 1.0,
+                 {trial_.residual.data() + begin * rows + stack_.offset[at(h)], height, width, rows});
         if (problem_.lambda == 0.0) continue;
         for (int i = 0; i < n; ++i) {
             double sum = 0.0;
             for (std::int64_t c = begin; c < end; ++c) sum += weights(i, c);
-            sums_.add_field(
-                static_cast<std::size_t>(i) * current_.weights.size() + static_cast<std::size_t>(h), sum);
+            sums_.add_field(at(i) * current_.weights.size() + at(h), sum);
         }
     }
     double tile_fit = 0.0;
@@ -190,9 +188,10 @@ void DenseModel::compute_gradient() {
             current_.row_sums.data() + h, n, Eigen::InnerStride<>(stack_.features));
         for (std::int64_t begin = 0; begin < owned(); begin += coefficient_tile) {
             const int width = static_cast<int>(std::min(coefficient_tile, owned() - begin));
-            multiply_transposed(n, width, stack_.rows_of(h), stack_.feature(h), rows,
-                                current_.residual.data() + begin * rows + stack_.offset[at(h)], rows, 0.0,
-                                gradient.data() + begin * n, n);
+            const int height = stack_.rows_of(h);
+            const double* residual = current_.residual.data() + begin * rows + stack_.offset[at(h)];
+            multiply_transposed({stack_.feature(h), height, n, rows}, {residual, height, width, rows}, 0.0,
+                                {gradient.data() + begin * n, n, width, n});
         }
         for (std::int64_t c = 0; c < owned(); ++c) {
             gradient.col(c) = 2.0 * gradient.col(c) + 2.0 * problem_.lambda * sums;
@@ -202,7 +201,7 @@ void DenseModel::compute_gradient() {
 
 double DenseModel::lower_bound() {
     PaperDualBound bound(stack_, problem_.alpha, problem_.beta, problem_.lambda, current_.row_sums);
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     std::vector<double> scores(features);
     for (std::int64_t begin = 0; begin < owned(); begin += coefficient_tile) {
         const int width = static_cast<int>(std::min(coefficient_tile, owned() - begin));

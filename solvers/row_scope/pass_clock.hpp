@@ -1,21 +1,19 @@
 #pragma once
 // Measures the time of the passes over all pairs.
 
-#include <mpi.h>
-
 #include <ctime>
 
 #include "solvers/subspace/solve_result.hpp"
-#include "src/parallel/comm.hpp"
+#include "src/base/stopwatch.hpp"
 
 namespace coseg {
 
 /// Adds the time between its construction and its destruction to a cost.
 class PassClock {
   public:
-    explicit PassClock(PassCost& cost) : cost_(cost), wall_(MPI_Wtime()), cpu_(cpu_seconds()) {}
+    explicit PassClock(PassCost& cost) : cost_(cost), cpu_(cpu_seconds()) {}
     ~PassClock() {
-        cost_.wall_seconds += MPI_Wtime() - wall_;
+        cost_.wall_seconds += wall_.seconds();
         cost_.cpu_seconds += cpu_seconds() - cpu_;
     }
     PassClock(const PassClock&) = delete;
@@ -30,17 +28,16 @@ class PassClock {
 
   private:
     PassCost& cost_;
-    double wall_;
+    Stopwatch wall_;
     double cpu_;
 };
 
 /// Adds the time between its construction and its destruction, which encloses collective calls, to a cost.
 class CommunicationClock {
   public:
-    explicit CommunicationClock(PassCost& cost)
-        : cost_(cost), wall_(MPI_Wtime()), cpu_(PassClock::cpu_seconds()) {}
+    explicit CommunicationClock(PassCost& cost) : cost_(cost), cpu_(PassClock::cpu_seconds()) {}
     ~CommunicationClock() {
-        cost_.communication_seconds += MPI_Wtime() - wall_;
+        cost_.communication_seconds += wall_.seconds();
         cost_.waiting_cpu_seconds += PassClock::cpu_seconds() - cpu_;
     }
     CommunicationClock(const CommunicationClock&) = delete;
@@ -48,7 +45,7 @@ class CommunicationClock {
 
   private:
     PassCost& cost_;
-    double wall_;
+    Stopwatch wall_;
     double cpu_;
 };
 

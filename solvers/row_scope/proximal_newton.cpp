@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solvers/subspace/tile_sums.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -24,18 +25,17 @@ enum Scalar : std::size_t { value, gradient2, distance2, scalar_count };
 }  // namespace
 
 ProximalNewton::ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                               const std::vector<RowScopeColumn>& fits,
-                               const std::vector<std::size_t>& offset, const std::vector<double>& linear,
+                               const ColumnValues& columns, const std::vector<double>& linear,
                                RowExchange& exchange)
     : comm_(comm),
       stack_(stack),
-      fits_(fits),
-      offset_(offset),
+      fits_(columns.fits),
+      offset_(columns.offset),
       linear_(linear),
       exchange_(exchange),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
-      newton_(comm, problem, stack, fits, offset, exchange),
-      sums_(0, 1.0, scalar_count) {}
+      newton_(comm, problem, stack, columns, exchange),
+      sums_(scalar_count) {}
 
 void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double>& product) const {
     product.resize(vector.size());
@@ -45,11 +45,11 @@ void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double
 
 /// by_row_ becomes W; the penalties are added up.
 void ProximalNewton::shrink_rows(double reach, std::vector<double>& prices) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     std::vector<double> row_sums(features);
     add_by_tiles<1>(exchange_.owned_rows().size(), value, sums_, [&](std::int64_t r, double* tile) {
         const std::span<double> row = exchange_.row(by_row_, r);
-        prox_.shrink(row, reach, std::span(prices).subspan(static_cast<std::size_t>(r) * features, features));
+        prox_.shrink(row, reach, std::span(prices).subspan(at(r) * features, features));
         tile[0] += prox_.penalty(row, row_sums);
     });
 }
@@ -58,7 +58,7 @@ void ProximalNewton::shrink_rows(double reach, std::vector<double>& prices) {
 template <class Add>
 void ProximalNewton::sum_values(Add&& add) {
     add_by_tiles<scalar_count>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
-        const auto column = static_cast<std::size_t>(c);
+        const auto column = at(c);
         for (std::size_t entry = offset_[column]; entry < offset_[column + 1]; ++entry) add(entry, tile);
     });
     sums_.reduce(comm_);

@@ -5,12 +5,12 @@
 
 #include <vector>
 
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/row_scope/row_exchange.hpp"
 #include "solvers/row_scope/row_prox.hpp"
 #include "solvers/row_scope/support_newton.hpp"
 #include "solvers/subspace/row_scope_column.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -35,11 +35,9 @@ struct ProximalPoint {
 /// lasso problems", SIAM J. Optim. 2018, with the prox of this problem's rows.
 class ProximalNewton {
   public:
-    /// `fits` are the columns of this rank, `offset` the index of each column's first value, `linear` their
-    /// X^T X. All must outlive this.
+    /// `linear`: X^T X of the columns' pairs. All must outlive this.
     ProximalNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                   const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
-                   const std::vector<double>& linear, RowExchange& exchange);
+                   const ColumnValues& columns, const std::vector<double>& linear, RowExchange& exchange);
 
     /// Pairs are ordered by columns, H values together. `centre_product` = G centre. `prices` belong to the
     /// owned rows, and their prox starts from them. The result has the same bits on any number of ranks.

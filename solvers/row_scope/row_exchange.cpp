@@ -1,7 +1,6 @@
 #include "solvers/row_scope/row_exchange.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "solvers/subspace/coefficients.hpp"
@@ -11,60 +10,84 @@ namespace coseg {
 
 namespace {
 
-std::vector<int> offsets_of(const std::vector<int>& counts) {
-    std::vector<int> offsets(counts.size(), 0);
+template <class Count>
+std::vector<Count> offsets_of(const std::vector<Count>& counts) {
+    std::vector<Count> offsets(counts.size(), 0);
     std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
     return offsets;
 }
 
+std::int64_t sum_of(const std::vector<std::int64_t>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+}
+
+/// As MPI counts; `factor` values each.
+std::vector<int> message_counts(const std::vector<std::int64_t>& counts, std::int64_t factor) {
+    std::vector<int> values;
+    for (const std::int64_t count : counts) values.push_back(static_cast<int>(count * factor));
+    return values;
+}
+
+std::vector<std::int64_t> swapped_counts(const Comm& comm, const std::vector<std::int64_t>& to) {
+    std::vector<std::int64_t> from(to.size(), 0);
+    MPI_Alltoall(to.data(), 1, MPI_INT64_T, from.data(), 1, MPI_INT64_T, comm.raw());
+    return from;
+}
+
+/// The rows that this rank owns, from the owners of the columns.
+std::vector<int> received_rows(const Comm& comm, const std::vector<int>& sent, const std::vector<int>& to,
+                               const std::vector<int>& from) {
+    const std::vector<int> to_offsets = offsets_of(to);
+    const std::vector<int> from_offsets = offsets_of(from);
+    std::vector<int> received(at(from_offsets.back() + from.back()));
+    MPI_Alltoallv(sent.data(), to.data(), to_offsets.data(), MPI_INT, received.data(), from.data(),
+                  from_offsets.data(), MPI_INT, comm.raw());
+    return received;
+}
+
 }  // namespace
+
+void refuse_long_exchange(std::int64_t pairs, std::int64_t features) {
+    if (pairs * features > longest_message)
+        throw Error(ExitCode::internal, "a rank's working set exceeds 2^31 values; use more ranks");
+}
 
 RowExchange::RowExchange(const Comm& comm, std::int64_t size, int features, const std::vector<int>& rows)
     : comm_(comm),
-      features_(static_cast<std::size_t>(features)),
+      features_(at(features)),
       owned_(block_range(size, comm.size(), comm.rank(), coefficient_tile)) {
-    const auto ranks = static_cast<std::size_t>(comm.size());
-    std::vector<int> pairs_to(ranks, 0);
+    std::vector<std::int64_t> pairs_to(at(comm.size()), 0);
     std::vector<int> owner(rows.size());
     for (std::size_t e = 0; e < rows.size(); ++e) {
         owner[e] = block_owner(size, comm.size(), rows[e], coefficient_tile);
         ++pairs_to[at(owner[e])];
     }
-    std::vector<int> next = offsets_of(pairs_to);
+    const std::vector<std::int64_t> pairs_from = swapped_counts(comm, pairs_to);
+    agree(comm, [&] { refuse_long_exchange(std::max(sum_of(pairs_to), sum_of(pairs_from)), features); });
+    send_counts_ = message_counts(pairs_to, features);
+    receive_counts_ = message_counts(pairs_from, features);
+
+    std::vector<std::int64_t> next = offsets_of(pairs_to);
     std::vector<int> sent_rows(rows.size());
     send_place_.resize(rows.size());
     for (std::size_t e = 0; e < rows.size(); ++e) {
-        send_place_[e] = static_cast<std::size_t>(next[at(owner[e])]++);
+        send_place_[e] = at(next[at(owner[e])]++);
         sent_rows[send_place_[e]] = rows[e];
     }
-    std::vector<int> pairs_from(ranks, 0);
-    MPI_Alltoall(pairs_to.data(), 1, MPI_INT, pairs_from.data(), 1, MPI_INT, comm.raw());
-    const auto received =
-        static_cast<std::size_t>(std::accumulate(pairs_from.begin(), pairs_from.end(), std::int64_t{0}));
-    agree(comm, [&] {
-        if (std::max(received, rows.size()) * features_ >
-            static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-            throw Error(ExitCode::internal, "a rank's working set exceeds 2^31 values; use more ranks");
-        }
-    });
-    std::vector<int> received_rows(received);
-    const std::vector<int> to_offsets = offsets_of(pairs_to);
-    const std::vector<int> from_offsets = offsets_of(pairs_from);
-    MPI_Alltoallv(sent_rows.data(), pairs_to.data(), to_offsets.data(), MPI_INT, received_rows.data(),
-                  pairs_from.data(), from_offsets.data(), MPI_INT, comm.raw());
-    // Ranks own ascending columns and send column by column: a stable sort by row leaves columns ascending.
-    row_begin_.assign(static_cast<std::size_t>(owned_.size()) + 1, 0);
-    for (const int row : received_rows) ++row_begin_[at(row - owned_.begin) + 1];
+    plan_rows(received_rows(comm, sent_rows, message_counts(pairs_to, 1), message_counts(pairs_from, 1)));
+    send_.resize(rows.size() * features_);
+    receive_.resize(receive_place_.size() * features_);
+}
+
+/// Ranks own ascending columns and send column by column: a stable sort by row leaves columns ascending.
+void RowExchange::plan_rows(const std::vector<int>& received) {
+    row_begin_.assign(at(owned_.size()) + 1, 0);
+    for (const int row : received) ++row_begin_[at(row - owned_.begin) + 1];
     std::partial_sum(row_begin_.begin(), row_begin_.end(), row_begin_.begin());
     std::vector<std::size_t> place(row_begin_.begin(), row_begin_.end() - 1);
-    receive_place_.resize(received);
-    for (std::size_t e = 0; e < received; ++e) {
-        receive_place_[place[at(received_rows[e] - owned_.begin)]++] = e;
-    }
-    for (const int count : pairs_to) send_counts_.push_back(count * features);
-    for (const int count : pairs_from) receive_counts_.push_back(count * features);
-    send_.resize(rows.size() * features_);
-    receive_.resize(received * features_);
+    receive_place_.resize(received.size());
+    for (std::size_t e = 0; e < received.size(); ++e)
+        receive_place_[place[at(received[e] - owned_.begin)]++] = e;
 }
 
 void RowExchange::exchange(const std::vector<double>& from, const std::vector<int>& from_counts,

@@ -11,6 +11,9 @@
 
 namespace coseg {
 
+/// Throws Error(internal) if `pairs` of `features` values each are more than a rank can send or receive at once.
+void refuse_long_exchange(std::int64_t pairs, std::int64_t features);
+
 /// The plan of the exchange for one sparsity pattern. Rows are owned like columns: block_range(N, ranks,
 /// rank, coefficient_tile).
 class RowExchange {
@@ -32,6 +35,7 @@ class RowExchange {
     void to_columns(const std::vector<double>& by_row, std::vector<double>& by_column);
 
   private:
+    void plan_rows(const std::vector<int>& received);
     void exchange(const std::vector<double>& from, const std::vector<int>& from_counts,
                   std::vector<double>& to, const std::vector<int>& to_counts) const;
 

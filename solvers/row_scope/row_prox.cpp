@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solvers/subspace/group_shrinkage.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -23,7 +24,7 @@ double largest_magnitude(const std::vector<double>& values) {
 }  // namespace
 
 RowProx::RowProx(int features, double alpha, double beta, double lambda)
-    : features_(static_cast<std::size_t>(features)),
+    : features_(at(features)),
       alpha_(alpha),
       beta_(beta),
       lambda_(lambda),

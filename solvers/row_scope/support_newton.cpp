@@ -22,22 +22,21 @@ constexpr double regularization = 1e-11;
 }  // namespace
 
 SupportNewton::SupportNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                             const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
-                             RowExchange& exchange)
+                             const ColumnValues& columns, RowExchange& exchange)
     : comm_(comm),
       problem_(problem),
       stack_(stack),
-      fits_(fits),
-      offset_(offset),
+      fits_(columns.fits),
+      offset_(columns.offset),
       exchange_(exchange),
-      sums_(0, 1.0, 1) {
-    blocks_.resize(fits.size() * static_cast<std::size_t>(stack.features));
-    inverse_norm_.resize(offset.back() / static_cast<std::size_t>(stack.features));
+      sums_(1) {
+    blocks_.resize(fits_.size() * at(stack.features));
+    inverse_norm_.resize(offset_.back() / at(stack.features));
 }
 
 /// row_part_: by columns, 2 lambda times the sum of the vector over each pair's row.
 void SupportNewton::sum_along_rows(const std::vector<double>& vector) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     exchange_.to_rows(vector, by_row_);
     std::vector<double> sums(features);
     for (std::int64_t r = 0; r < exchange_.owned_rows().size(); ++r) {
@@ -51,7 +50,7 @@ void SupportNewton::sum_along_rows(const std::vector<double>& vector) {
 }
 
 void SupportNewton::measure_groups(const std::vector<double>& weights) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     for (std::size_t p = 0; p < inverse_norm_.size(); ++p) {
         double squares = 0.0;
         for (std::size_t h = 0; h < features; ++h)
@@ -61,7 +60,7 @@ void SupportNewton::measure_groups(const std::vector<double>& weights) {
 }
 
 void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weights, double added) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     for (std::size_t h = 0; h < features; ++h) {
         Block& block = blocks_[c * features + h];
         block.places.clear();
@@ -92,7 +91,7 @@ void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weig
 /// x_hi . x_hk of the pairs at `places`: from the column's own, or anew where it has none.
 Eigen::MatrixXd SupportNewton::gram_of(std::size_t c, std::size_t h,
                                        const std::vector<std::size_t>& places) const {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     const RowScopeColumn& fit = fits_[c];
     const auto count = static_cast<Eigen::Index>(places.size());
     const auto pair = [&](Eigen::Index k) { return (places[at(k)] - offset_[c]) / features; };
@@ -117,7 +116,7 @@ Eigen::MatrixXd SupportNewton::gram_of(std::size_t c, std::size_t h,
 
 /// result = 2 X^T X vector on the support.
 void SupportNewton::apply_fit(const std::vector<double>& vector, std::vector<double>& result) const {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     for (std::size_t c = 0; c < fits_.size(); ++c) {
         const auto* const first = blocks_.data() + c * features;
         if (std::any_of(first, first + features, [](const Block& block) {
@@ -139,7 +138,7 @@ void SupportNewton::apply_fit(const std::vector<double>& vector, std::vector<dou
 /// result = (H + added) vector, 0 off the support; `vector` is 0 there.
 void SupportNewton::apply(const std::vector<double>& vector, const std::vector<double>& weights, double added,
                           std::vector<double>& result) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     sum_along_rows(vector);
     apply_fit(vector, result);
     for (std::size_t p = 0; p < inverse_norm_.size(); ++p) {
@@ -174,7 +173,7 @@ void SupportNewton::precondition(const std::vector<double>& vector, std::vector<
 double SupportNewton::inner(const std::vector<double>& a, const std::vector<double>& b) {
     sums_.clear();
     add_by_tiles<1>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
-        const auto column = static_cast<std::size_t>(c);
+        const auto column = at(c);
         for (std::size_t entry = offset_[column]; entry < offset_[column + 1]; ++entry)
             tile[0] += a[entry] * b[entry];
     });

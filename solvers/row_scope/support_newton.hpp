@@ -7,12 +7,18 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/row_scope/row_exchange.hpp"
 #include "solvers/subspace/row_scope_column.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
+
+/// The columns of this rank on a working set, and where each column's values begin among those of all.
+struct ColumnValues {
+    const std::vector<RowScopeColumn>& fits;
+    const std::vector<std::size_t>& offset;
+};
 
 /// As long as all positive weights stay positive, the objective is smooth. Its Hessian is 2 X^T X of each
 /// column, 2 lambda along each row, and the curvature of the groups' norms. The system is solved by conjugate
@@ -20,11 +26,9 @@ namespace coseg {
 /// less a row couples its columns. Source: inexact Newton (Dembo, Eisenstat, Steihaug 1982).
 class SupportNewton {
   public:
-    /// `fits` are the columns of this rank, `offset` the index of each column's first value. All must outlive
-    /// this.
+    /// All must outlive this.
     SupportNewton(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                  const std::vector<RowScopeColumn>& fits, const std::vector<std::size_t>& offset,
-                  RowExchange& exchange);
+                  const ColumnValues& columns, RowExchange& exchange);
 
     /// Solves (objective's Hessian + `added` times the identity) y = `right_side` on the support of
     /// `weights` >= 0. Pairs are ordered by columns, H values together. Where a weight is 0, `right_side` is

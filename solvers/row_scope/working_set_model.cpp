@@ -6,6 +6,7 @@
 
 #include "solvers/subspace/dual_bound.hpp"
 #include "solvers/subspace/tile_sums.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -46,8 +47,8 @@ WorkingSetModel::WorkingSetModel(const Comm& comm, const SubspaceProblem& proble
       offset_(value_offsets(working)),
       exchange_(comm, stack.size, stack.features, all_rows(working)),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
-      proximal_(comm, problem, stack, working.fits, offset_, linear_, exchange_),
-      sums_(0, 1.0, scalar_count) {
+      proximal_(comm, problem, stack, {working.fits, offset_}, linear_, exchange_),
+      sums_(scalar_count) {
     for (const RowScopeColumn& column : working.fits) {
         linear_.insert(linear_.end(), column.linear.begin(), column.linear.end());
         forward_.insert(forward_.end(), column.weights.begin(), column.weights.end());
@@ -77,11 +78,11 @@ std::optional<int> WorkingSetModel::proximal_step(double reach) {
 
 /// From forward_ to the trial's weights; the penalties are added up.
 void WorkingSetModel::shrink_rows(double step) {
-    const auto features = static_cast<std::size_t>(stack_.features);
+    const auto features = at(stack_.features);
     sums_.clear();
     add_by_tiles<1>(exchange_.owned_rows().size(), penalty, sums_, [&](std::int64_t r, double* tile) {
         const std::span<double> row = exchange_.row(by_row_, r);
-        const std::size_t entry = static_cast<std::size_t>(r) * features;
+        const std::size_t entry = at(r) * features;
         if (step > 0.0) prox_.shrink(row, step, std::span(prices_).subspan(entry, features));
         tile[0] += prox_.penalty(row, std::span(trial_.row_sums).subspan(entry, features));
     });
@@ -90,7 +91,7 @@ void WorkingSetModel::shrink_rows(double step) {
 
 void WorkingSetModel::measure_columns() {
     add_by_tiles<3>(std::ssize(working_.fits), fit, sums_, [&](std::int64_t c, double* tile) {
-        const auto column = static_cast<std::size_t>(c);
+        const auto column = at(c);
         apply_gram(stack_, working_.fits[column], trial_.weights.data() + offset_[column],
                    trial_.product.data() + offset_[column]);
         for (std::size_t entry = offset_[column]; entry < offset_[column + 1]; ++entry) {
@@ -127,12 +128,11 @@ TrialPoint WorkingSetModel::propose(double step) {
 double WorkingSetModel::lower_bound() const {
     const std::vector<double> sums = row_sums();
     PaperDualBound bound(stack_, problem_.alpha, problem_.beta, problem_.lambda, sums);
-    const auto features = static_cast<std::size_t>(stack_.features);
-    const auto dimension = static_cast<std::size_t>(stack_.dimension);
-    std::vector<double> reconstruction(dimension * static_cast<std::size_t>(coefficient_tile));
+    const auto features = at(stack_.features);
+    const auto dimension = at(stack_.dimension);
+    std::vector<double> reconstruction(dimension * at(coefficient_tile));
     std::vector<double> scores(features);
-    for (std::size_t begin = 0; begin < working_.fits.size();
-         begin += static_cast<std::size_t>(coefficient_tile)) {
+    for (std::size_t begin = 0; begin < working_.fits.size(); begin += at(coefficient_tile)) {
         const std::size_t width = std::min<std::size_t>(coefficient_tile, working_.fits.size() - begin);
         for (std::size_t c = 0; c < width; ++c) {
             reconstruct(stack_, working_.fits[begin + c], current_.weights.data() + offset_[begin + c],

@@ -9,13 +9,13 @@
 #include <optional>
 #include <vector>
 
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/row_scope/proximal_newton.hpp"
 #include "solvers/row_scope/row_exchange.hpp"
 #include "solvers/row_scope/row_prox.hpp"
 #include "solvers/subspace/row_scope_column.hpp"
 #include "solvers/subspace/spectral_projected_gradient.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 

@@ -7,6 +7,7 @@
 #include "solvers/row_scope/working_set_model.hpp"
 #include "solvers/subspace/solver_checkpoint.hpp"
 #include "solvers/subspace/stopping_rule.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -37,7 +38,7 @@ bool is_zero(const RowScopeColumn& fit, std::size_t pair, std::size_t features) 
 /// Adds the rows `entering` (none of them in the set) and, if asked to, drops pairs that are zero.
 void update_fit(const FeatureStack& stack, int column, const std::vector<int>& entering, bool shrink,
                 RowScopeColumn& fit) {
-    const auto features = static_cast<std::size_t>(stack.features);
+    const auto features = at(stack.features);
     RowScopeColumn next;
     std::size_t old = 0, added = 0;
     while (old < fit.rows.size() || added < entering.size()) {
@@ -68,7 +69,7 @@ void update_working_set(const FeatureStack& stack, const PassFindings& findings,
 }
 
 SparseCoefficients nonzero_pairs(const FeatureStack& stack, const WorkingSet& working) {
-    const auto features = static_cast<std::size_t>(stack.features);
+    const auto features = at(stack.features);
     SparseCoefficients sparse{stack.size, working.columns, stack.features, {0}, {}, {}};
     for (const RowScopeColumn& fit : working.fits) {
         for (std::size_t p = 0; p < fit.rows.size(); ++p) {
@@ -80,29 +81,6 @@ SparseCoefficients nonzero_pairs(const FeatureStack& stack, const WorkingSet& wo
         sparse.offsets.push_back(static_cast<std::int64_t>(sparse.rows.size()));
     }
     return sparse;
-}
-
-/// The iteration's state between passes.
-struct Progress {
-    double objective = 0.0;
-    std::vector<double> row_sums;
-    double inner_gap = 0.0;  ///< asked of the working set's problem
-    bool limited = false;
-    bool stopped = false;  ///< by the checkpoint: the iterate is kept, and another run continues
-};
-
-/// The working set as a checkpoint keeps it; the rest of the iterate is the caller's.
-SolveIterate iterate_of(const WorkingSet& working, const std::vector<double>& prices) {
-    SolveIterate iterate;
-    iterate.columns = working.columns;
-    iterate.offsets = {0};
-    for (const RowScopeColumn& fit : working.fits) {
-        iterate.rows.insert(iterate.rows.end(), fit.rows.begin(), fit.rows.end());
-        iterate.weights.insert(iterate.weights.end(), fit.weights.begin(), fit.weights.end());
-        iterate.offsets.push_back(static_cast<std::int64_t>(iterate.rows.size()));
-    }
-    iterate.prices = prices;
-    return iterate;
 }
 
 void restore(const FeatureStack& stack, const SolveIterate& iterate, WorkingSet& working,
@@ -120,11 +98,11 @@ void restore(const FeatureStack& stack, const SolveIterate& iterate, WorkingSet&
     prices = iterate.prices;
 }
 
-ProximalTurns first_turn(double shortest_step, const Progress& progress, const StoppingRule& rule) {
+ProximalTurns first_turn(double shortest_step, double sufficient_gap) {
     return {.next = first_proximal_step,
             .reach = first_reach * shortest_step,
             .largest_reach = largest_reach * shortest_step,
-            .sufficient_gap = std::max(progress.inner_gap, 0.1 * rule.relative_gap())};
+            .sufficient_gap = sufficient_gap};
 }
 
 void take_turn(WorkingSetModel& model, int iteration, ProximalTurns& turns) {
@@ -138,84 +116,158 @@ void take_turn(WorkingSetModel& model, int iteration, ProximalTurns& turns) {
     }
 }
 
-/// Spectral projected gradient on the working set, with proximal points in between where it is slow, until
-/// its own gap is small enough, or a limit, or the checkpoint stops it. from: where an earlier run was in
-/// this very solve, if it was.
-void solve_inside(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
-                  WorkingSet& working, std::vector<double>& prices, StoppingRule& rule, Progress& progress,
-                  SolveResult& result, SolverCheckpoint* checkpoint, const SolveIterate* from) {
-    WorkingSetModel model(comm, problem, stack, working, prices);
-    const int before = result.iterations;
-    const double shortest_step = 0.5 / stack.largest_inner;
-    ProximalTurns turns = from != nullptr ? from->proximal : first_turn(shortest_step, progress, rule);
-    const auto keep = [&](const SpectralProgress& inner) {
-        const CheckpointAction turn = checkpoint->turn();
-        progress.stopped = turn == CheckpointAction::keep_and_stop;
-        if (turn == CheckpointAction::go_on) return;
-        model.store(working);
-        SolveIterate iterate = iterate_of(working, prices);
-        iterate.spectral = inner.state;
-        iterate.inner_gap = progress.inner_gap;
-        iterate.lower_bound = rule.lower_bound();
-        iterate.iterations = before;
-        iterate.passes = result.passes;
-        iterate.proximal = turns;
-        iterate.history = result.history;
-        checkpoint->keep_iterate(iterate);
+/// The solve of one problem, from pass to pass: the working set and what is known of W on it.
+class WorkingSetSolve {
+  public:
+    /// Collective, as is all that is public.
+    WorkingSetSolve(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options);
+    SolveResult run();
+
+  private:
+    /// A solve on the working set as it is now.
+    struct InnerSolve {
+        WorkingSetModel& model;
+        ProximalTurns turns;
+        int iterations_before = 0;
     };
-    const auto stop = [&](const SpectralProgress& inner) {
-        result.iterations = before + inner.iterations;
-        result.kkt_residual = inner.residual / gradient_scale(stack);
-        if (inner.residual == 0.0) return true;
-        if (inner.iterations % inner_check_interval != 0) return false;
-        progress.limited = rule.limit_reached(result.iterations, 1.0);
-        const double gap = model.objective() - model.lower_bound();
-        const double enough =
-            inner.iterations < first_proximal_step ? progress.inner_gap : turns.sufficient_gap;
-        if (progress.limited || gap <= enough * rule.scale(model.objective())) return true;
-        if (inner.iterations >= turns.next) take_turn(model, inner.iterations, turns);
-        // After the step, so that a run that continues from here is where this one is.
-        if (checkpoint != nullptr) keep(inner);
-        return progress.stopped;
-    };
+
+    void solve_inside(const SolveIterate* from);
+    bool ends(InnerSolve& inner, const SpectralProgress& progress);
+    void keep(const InnerSolve& inner, const SpectralProgress& progress);
+    [[nodiscard]] SolveIterate iterate() const;
+    PassFindings resume(const SolveIterate& known);
+    bool record(const PassFindings& findings);
+    bool prepare(const PassFindings& findings);
+    void close_checkpoint(bool was_finished);
+
+    const Comm& comm_;
+    const SubspaceProblem& problem_;
+    const SolveOptions& options_;
+    FeatureStack stack_;
+    WorkingSet working_;
+    std::vector<double> prices_;
+    AllPairsPass pass_;
+    StoppingRule rule_;
+    SolveResult result_;
+    double objective_;
+    std::vector<double> row_sums_;
+    double inner_gap_ = 1e-2;  ///< asked of the working set's problem
+    bool limited_ = false;
+    bool stopped_ = false;  ///< by the checkpoint: the iterate is kept, and another run continues
+};
+
+WorkingSet empty_set(const Comm& comm, const FeatureStack& stack) {
+    WorkingSet working;
+    working.columns = block_range(stack.size, comm.size(), comm.rank(), coefficient_tile);
+    working.fits.resize(at(working.columns.size()));
+    return working;
+}
+
+WorkingSetSolve::WorkingSetSolve(const Comm& comm, const SubspaceProblem& problem,
+                                 const SolveOptions& options)
+    : comm_(comm),
+      problem_(problem),
+      options_(options),
+      stack_(stack_features(problem)),
+      working_(empty_set(comm, stack_)),
+      prices_(working_.fits.size() * at(stack_.features), 0.0),
+      pass_(comm, problem, stack_),
+      rule_(comm, options, stack_.squared_norm),
+      objective_(stack_.squared_norm) {}
+
+/// The working set as a checkpoint keeps it, and how far the solve has come; the rest of the iterate is the
+/// caller's.
+SolveIterate WorkingSetSolve::iterate() const {
+    SolveIterate iterate;
+    iterate.columns = working_.columns;
+    iterate.offsets = {0};
+    for (const RowScopeColumn& fit : working_.fits) {
+        iterate.rows.insert(iterate.rows.end(), fit.rows.begin(), fit.rows.end());
+        iterate.weights.insert(iterate.weights.end(), fit.weights.begin(), fit.weights.end());
+        iterate.offsets.push_back(static_cast<std::int64_t>(iterate.rows.size()));
+    }
+    iterate.prices = prices_;
+    iterate.lower_bound = rule_.lower_bound();
+    iterate.iterations = result_.iterations;
+    iterate.passes = result_.passes;
+    iterate.history = result_.history;
+    return iterate;
+}
+
+/// Keeps the iterate inside a solve if the checkpoint's turn has come.
+void WorkingSetSolve::keep(const InnerSolve& inner, const SpectralProgress& progress) {
+    const CheckpointAction turn = options_.checkpoint->turn();
+    stopped_ = turn == CheckpointAction::keep_and_stop;
+    if (turn == CheckpointAction::go_on) return;
+    inner.model.store(working_);
+    SolveIterate kept = iterate();
+    kept.spectral = progress.state;
+    kept.inner_gap = inner_gap_;
+    kept.iterations = inner.iterations_before;
+    kept.proximal = inner.turns;
+    options_.checkpoint->keep_iterate(kept);
+}
+
+/// Whether the solve on the working set ends here: its gap is small enough, or a limit or the checkpoint
+/// stops it.
+bool WorkingSetSolve::ends(InnerSolve& inner, const SpectralProgress& progress) {
+    result_.iterations = inner.iterations_before + progress.iterations;
+    result_.kkt_residual = progress.residual / gradient_scale(stack_);
+    if (progress.residual == 0.0) return true;
+    if (progress.iterations % inner_check_interval != 0) return false;
+    limited_ = rule_.limit_reached(result_.iterations, 1.0);
+    const double gap = inner.model.objective() - inner.model.lower_bound();
+    const double enough = progress.iterations < first_proximal_step ? inner_gap_ : inner.turns.sufficient_gap;
+    if (limited_ || gap <= enough * rule_.scale(inner.model.objective())) return true;
+    if (progress.iterations >= inner.turns.next) take_turn(inner.model, progress.iterations, inner.turns);
+    // After the step, so that a run that continues from here is where this one is.
+    if (options_.checkpoint != nullptr) keep(inner, progress);
+    return stopped_;
+}
+
+/// Spectral projected gradient on the working set, with proximal points in between where it is slow.
+/// from: where an earlier run was in this very solve, if it was.
+void WorkingSetSolve::solve_inside(const SolveIterate* from) {
+    WorkingSetModel model(comm_, problem_, stack_, working_, prices_);
+    const double shortest_step = 0.5 / stack_.largest_inner;
+    const double sufficient_gap = std::max(inner_gap_, 0.1 * rule_.relative_gap());
+    InnerSolve inner{model, from != nullptr ? from->proximal : first_turn(shortest_step, sufficient_gap),
+                     result_.iterations};
+    const auto stop = [&](const SpectralProgress& progress) { return ends(inner, progress); };
     if (from != nullptr)
         spectral_projected_gradient(model, from->spectral, stop);
     else
         spectral_projected_gradient(model, shortest_step, stop);
-    model.store(working);
-    progress.objective = model.objective();
-    progress.row_sums = model.row_sums();
+    model.store(working_);
+    objective_ = model.objective();
+    row_sums_ = model.row_sums();
 }
 
 /// Counts a pass, and makes what it has found a row of the history. Returns whether the gap is small enough.
-/// Collective.
-bool record(const Comm& comm, StoppingRule& rule, const Progress& progress, const PassFindings& findings,
-            const WorkingSet& working, SolveResult& result) {
-    ++result.passes;
-    const bool reached = rule.certify(progress.objective, findings.lower_bound);
-    append_row(result.history, {.pass = result.passes,
-                                .iterations = result.iterations,
-                                .objective = progress.objective,
-                                .lower_bound = rule.lower_bound(),
-                                .relative_gap = rule.relative_gap(),
-                                .working_pairs = all_sum(comm, working.pair_count())});
+bool WorkingSetSolve::record(const PassFindings& findings) {
+    ++result_.passes;
+    const bool reached = rule_.certify(objective_, findings.lower_bound);
+    append_row(result_.history, {.pass = result_.passes,
+                                 .iterations = result_.iterations,
+                                 .objective = objective_,
+                                 .lower_bound = rule_.lower_bound(),
+                                 .relative_gap = rule_.relative_gap(),
+                                 .working_pairs = all_sum(comm_, working_.pair_count())});
     return reached;
 }
 
 /// Takes up an iterate that a checkpoint has kept. A finished one leaves nothing to do.
-PassFindings resume(const FeatureStack& stack, const SolveIterate& known, WorkingSet& working,
-                    std::vector<double>& prices, StoppingRule& rule, Progress& progress,
-                    SolveResult& result) {
-    restore(stack, known, working, prices);
-    progress.inner_gap = known.inner_gap;
-    result.iterations = known.iterations;
-    result.passes = known.passes;
-    result.history = known.history;
+PassFindings WorkingSetSolve::resume(const SolveIterate& known) {
+    restore(stack_, known, working_, prices_);
+    inner_gap_ = known.inner_gap;
+    result_.iterations = known.iterations;
+    result_.passes = known.passes;
+    result_.history = known.history;
     if (known.finished) {
-        progress.objective = known.objective;
-        progress.limited = true;
-        result.kkt_residual = known.residual;
-        rule.give_up(static_cast<StopReason>(known.reason));
+        objective_ = known.objective;
+        limited_ = true;
+        result_.kkt_residual = known.residual;
+        rule_.give_up(static_cast<StopReason>(known.reason));
     }
     PassFindings findings;
     findings.lower_bound = known.lower_bound;
@@ -224,83 +276,64 @@ PassFindings resume(const FeatureStack& stack, const SolveIterate& known, Workin
 
 /// Keeps the end of the solve, unless it is the clock's, and ends the run where the checkpoint has stopped
 /// it.
-void close_checkpoint(SolverCheckpoint& checkpoint, const WorkingSet& working,
-                      const std::vector<double>& prices, const StoppingRule& rule, const Progress& progress,
-                      const SolveResult& result, bool was_finished) {
-    if (!progress.stopped && !was_finished && rule.limit() != StopReason::time_limit) {
-        SolveIterate iterate = iterate_of(working, prices);
-        iterate.lower_bound = rule.lower_bound();
-        iterate.iterations = result.iterations;
-        iterate.passes = result.passes;
-        iterate.history = result.history;
-        iterate.finished = true;
-        iterate.objective = progress.objective;
-        iterate.residual = result.kkt_residual;
-        iterate.reason = static_cast<int>(rule.limit());
-        checkpoint.keep_iterate(iterate);
+void WorkingSetSolve::close_checkpoint(bool was_finished) {
+    if (!stopped_ && !was_finished && rule_.limit() != StopReason::time_limit) {
+        SolveIterate kept = iterate();
+        kept.finished = true;
+        kept.objective = objective_;
+        kept.residual = result_.kkt_residual;
+        kept.reason = static_cast<int>(rule_.limit());
+        options_.checkpoint->keep_iterate(kept);
     }
-    checkpoint.close(progress.stopped);
+    options_.checkpoint->close(stopped_);
 }
 
 /// What the next solve on the working set is asked for, and the pairs that it is on; false if nothing closes
 /// the gap.
-bool prepare_solve(const FeatureStack& stack, const PassFindings& findings, const SolveOptions& options,
-                   int passes, StoppingRule& rule, WorkingSet& working, Progress& progress) {
+bool WorkingSetSolve::prepare(const PassFindings& findings) {
     // Solve the working set to a part of the gap that is left; more only where nothing else closes it.
-    if (findings.entering_pairs > 0) {
-        progress.inner_gap =
-            std::max(std::min(progress.inner_gap, 0.1 * rule.relative_gap()), 0.3 * options.gap);
-    } else {
-        progress.inner_gap *= 0.1;
-    }
-    if (progress.inner_gap < smallest_inner_gap) {
-        rule.give_up(StopReason::residual_reached);
+    if (findings.entering_pairs > 0)
+        inner_gap_ = std::max(std::min(inner_gap_, 0.1 * rule_.relative_gap()), 0.3 * options_.gap);
+    else
+        inner_gap_ *= 0.1;
+    if (inner_gap_ < smallest_inner_gap) {
+        rule_.give_up(StopReason::residual_reached);
         return false;
     }
-    update_working_set(stack, findings, passes > 1 && passes <= passes_that_shrink, working);
+    update_working_set(stack_, findings, result_.passes > 1 && result_.passes <= passes_that_shrink,
+                       working_);
     return true;
+}
+
+SolveResult WorkingSetSolve::run() {
+    SolverCheckpoint* checkpoint = options_.checkpoint;
+    if (checkpoint != nullptr) checkpoint->open(problem_, options_, working_.columns);
+    std::optional<SolveIterate> known =
+        checkpoint != nullptr ? checkpoint->find_iterate() : std::optional<SolveIterate>();
+    const bool was_finished = known && known->finished;
+    PassFindings findings = known ? resume(*known) : pass_.first(working_);
+    bool reached = known ? rule_.certify(objective_, findings.lower_bound) : record(findings);
+    while (!reached && !limited_) {
+        if (!known && !prepare(findings)) break;
+        solve_inside(known ? &*known : nullptr);
+        known.reset();
+        if (stopped_) break;
+        findings = pass_.run(working_, row_sums_);
+        reached = record(findings);
+    }
+    if (checkpoint != nullptr) close_checkpoint(was_finished);
+    result_.pass_cost = pass_.cost();
+    result_.coefficients = nonzero_pairs(stack_, working_);
+    result_.working_pairs = all_sum(comm_, working_.pair_count());
+    result_.nonzero_groups = all_sum(comm_, static_cast<std::int64_t>(result_.coefficients.rows.size()));
+    rule_.report(result_);
+    return std::move(result_);
 }
 
 }  // namespace
 
 SolveResult solve_working_set(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options) {
-    const FeatureStack stack = stack_features(problem);
-    WorkingSet working;
-    working.columns = block_range(stack.size, comm.size(), comm.rank(), coefficient_tile);
-    working.fits.resize(static_cast<std::size_t>(working.columns.size()));
-    std::vector<double> prices(working.fits.size() * static_cast<std::size_t>(stack.features), 0.0);
-    AllPairsPass pass(comm, problem, stack);
-    StoppingRule rule(comm, options, stack.squared_norm);
-    SolveResult result;
-    Progress progress{.objective = stack.squared_norm, .row_sums = {}, .inner_gap = 1e-2};
-    SolverCheckpoint* checkpoint = options.checkpoint;
-    if (checkpoint != nullptr) checkpoint->open(problem, options, working.columns);
-    std::optional<SolveIterate> known =
-        checkpoint != nullptr ? checkpoint->find_iterate() : std::optional<SolveIterate>();
-    const bool was_finished = known && known->finished;
-    PassFindings findings =
-        known ? resume(stack, *known, working, prices, rule, progress, result) : pass.first(working);
-    bool reached = known ? rule.certify(progress.objective, findings.lower_bound)
-                         : record(comm, rule, progress, findings, working, result);
-    while (!reached && !progress.limited) {
-        const bool goes_on =
-            known || prepare_solve(stack, findings, options, result.passes, rule, working, progress);
-        if (!goes_on) break;
-        solve_inside(comm, problem, stack, working, prices, rule, progress, result, checkpoint,
-                     known ? &*known : nullptr);
-        known.reset();
-        if (progress.stopped) break;
-        findings = pass.run(working, progress.row_sums);
-        reached = record(comm, rule, progress, findings, working, result);
-    }
-    if (checkpoint != nullptr)
-        close_checkpoint(*checkpoint, working, prices, rule, progress, result, was_finished);
-    result.pass_cost = pass.cost();
-    result.coefficients = nonzero_pairs(stack, working);
-    result.working_pairs = all_sum(comm, working.pair_count());
-    result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
-    rule.report(result);
-    return result;
+    return WorkingSetSolve(comm, problem, options).run();
 }
 
 }  // namespace coseg

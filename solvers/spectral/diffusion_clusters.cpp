@@ -113,7 +113,7 @@ Clustering one_start(const Eigen::MatrixXd& points, int parts, std::uint64_t see
     constexpr int most_rounds = 100;
     SeededStream random(seed);
     Eigen::MatrixXd centres = spread_centres(points, parts, random);
-    Clustering clustering{.label = std::vector<int>(static_cast<std::size_t>(points.cols()), -1)};
+    Clustering clustering{.label = std::vector<int>(at(points.cols()), -1)};
     for (int round = 0; round < most_rounds && assign(points, centres, clustering); ++round) {
         Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(points.rows(), parts);
         Eigen::VectorXd counts = Eigen::VectorXd::Zero(parts);

@@ -37,7 +37,7 @@ MatrixXd distant_rows(const MatrixXd& points, Index first) {
 
 std::vector<int> nearest_axes(const MatrixXd& points, const MatrixXd& rotation) {
     const MatrixXd turned = points * rotation;
-    std::vector<int> labels(static_cast<std::size_t>(points.rows()));
+    std::vector<int> labels(at(points.rows()));
     for (Index r = 0; r < points.rows(); ++r) {
         Index axis = 0;
         turned.row(r).maxCoeff(&axis);
@@ -73,7 +73,7 @@ std::vector<int> discretize(const SpectralEmbedding& embedding, int clusters) {
 
 std::vector<int> cut_embedding(const SpectralEmbedding& embedding, int clusters, std::int64_t size) {
     const std::vector<int> of_row = discretize(embedding, clusters);
-    std::vector<int> labels(static_cast<std::size_t>(size), -1);
+    std::vector<int> labels(at(size), -1);
     for (std::size_t r = 0; r < of_row.size(); ++r) labels[at(embedding.rows[r])] = of_row[r];
     return labels;
 }

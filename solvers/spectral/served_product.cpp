@@ -29,15 +29,12 @@ PetscErrorCode multiply_shell(Mat matrix, Vec x, Vec y) {
 }  // namespace
 
 ServedProduct::ServedProduct(const Comm& comm, const SparseRows& matrix, GroupBalance balance)
-    : comm_(comm),
-      matrix_(matrix),
-      balance_(std::move(balance)),
-      message_(static_cast<std::size_t>(matrix.size) + 1, no_more) {
+    : comm_(comm), matrix_(matrix), balance_(std::move(balance)), message_(at(matrix.size) + 1, no_more) {
     if (balance_.weight != 0.0 && !balance_.group.empty()) {
         const int last = *std::max_element(balance_.group.begin(), balance_.group.end());
-        group_sums_.resize(static_cast<std::size_t>(last) + 1);
+        group_sums_.resize(at(last) + 1);
     }
-    rows_local_.resize(static_cast<std::size_t>(matrix.local_rows()));
+    rows_local_.resize(at(matrix.local_rows()));
     for (int rank = 0; rank < comm.size(); ++rank) {
         const BlockRange rows = block_range(matrix.size, comm.size(), rank, row_tile);
         counts_.push_back(static_cast<int>(rows.size()));
@@ -47,8 +44,7 @@ ServedProduct::ServedProduct(const Comm& comm, const SparseRows& matrix, GroupBa
 
 /// Adds the row's products from entry `skip` of the row on.
 double ServedProduct::add_products(std::size_t row, std::int64_t skip, double sum) const {
-    for (auto k = static_cast<std::size_t>(matrix_.offsets[row] + skip);
-         k < static_cast<std::size_t>(matrix_.offsets[row + 1]); ++k) {
+    for (auto k = at(matrix_.offsets[row] + skip); k < at(matrix_.offsets[row + 1]); ++k) {
         sum += matrix_.values[k] * message_[at(matrix_.columns[k])];
     }
     return sum;

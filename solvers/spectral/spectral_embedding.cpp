@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
+#include "src/base/text.hpp"
 
 namespace coseg {
 
@@ -56,10 +56,9 @@ SparseRows plus_diagonal(const SparseRows& matrix, const std::vector<double>& di
 
 /// v_ij -> v_ij (q_i q_j): the product in parentheses keeps the matrix symmetric to the last bit.
 void scale_both_sides(SparseRows& matrix, const std::vector<double>& q) {
-    for (std::size_t r = 0; r < static_cast<std::size_t>(matrix.local_rows()); ++r) {
+    for (std::size_t r = 0; r < at(matrix.local_rows()); ++r) {
         const double row_factor = q[at(matrix.rows.begin) + r];
-        for (auto k = static_cast<std::size_t>(matrix.offsets[r]);
-             k < static_cast<std::size_t>(matrix.offsets[r + 1]); ++k) {
+        for (auto k = at(matrix.offsets[r]); k < at(matrix.offsets[r + 1]); ++k) {
             matrix.values[k] *= row_factor * q[at(matrix.columns[k])];
         }
     }
@@ -79,7 +78,7 @@ void refuse_too_few(std::size_t rows, int parts) {
                           "no two patches are similar enough to be linked, so there is nothing to "
                           "cut; lower alpha, beta or lambda, or raise the adjacency weight");
     }
-    if (rows < static_cast<std::size_t>(parts)) {
+    if (rows < at(parts)) {
         throw AgreedError(ExitCode::input,
                           std::to_string(parts) + " parts are asked for, but only " + std::to_string(rows) +
                               " patches are linked to others; ask for fewer parts or more patches");
@@ -91,13 +90,13 @@ CutOperator cut_operator(const Comm& comm, const SparseRows& affinity, int parts
     result.components = main_components(connected_components(comm, affinity), parts);
     result.rows = rows_of(result.components);
     refuse_too_few(result.rows.size(), parts);
-    const auto size = static_cast<std::size_t>(affinity.size);
+    const auto size = at(affinity.size);
     const std::vector<double> sums = row_sums_global(comm, affinity);
     result.degree.assign(size, 0.0);
     std::vector<double> inverse_root(size, 0.0);
     std::vector<double> aside(size, -2.0);
     for (const int row : result.rows) {
-        const auto i = static_cast<std::size_t>(row);
+        const auto i = at(row);
         result.degree[i] = sums[i] + 2.0 * offset;
         inverse_root[i] = 1.0 / std::sqrt(result.degree[i]);
         aside[i] = 0.0;
@@ -123,13 +122,12 @@ EigenPairs component_eigenpairs(const CutOperator& op) {
 
 /// Entry i: that of patch i in the unit indicator D^1/2 1_m of its mesh m; 0 where set aside.
 std::vector<double> mesh_indicators(const CutOperator& op, const std::vector<int>& mesh_of) {
-    std::vector<double> squares(
-        static_cast<std::size_t>(*std::max_element(mesh_of.begin(), mesh_of.end())) + 1, 0.0);
-    const auto mesh = [&](int i) { return static_cast<std::size_t>(mesh_of[at(i)]); };
+    std::vector<double> squares(at(*std::max_element(mesh_of.begin(), mesh_of.end())) + 1, 0.0);
+    const auto mesh = [&](int i) { return at(mesh_of[at(i)]); };
     for (const int i : op.rows) squares[mesh(i)] += op.degree[at(i)];
     std::vector<double> entries(op.degree.size(), 0.0);
     for (const int i : op.rows) {
-        const auto k = static_cast<std::size_t>(i);
+        const auto k = at(i);
         entries[k] = std::sqrt(op.degree[k] / squares[mesh(i)]);
     }
     return entries;
@@ -151,9 +149,8 @@ EigenPairs dense_eigenpairs(const Comm& comm, const CutOperator& op, int count,
                             const SpectralOptions& options, const std::vector<int>& mesh_of) {
     const SparseRows all = gather_rows(comm, op.matrix);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(all.size, all.size);
-    for (std::size_t r = 0; r < static_cast<std::size_t>(all.size); ++r) {
-        for (auto k = static_cast<std::size_t>(all.offsets[r]);
-             k < static_cast<std::size_t>(all.offsets[r + 1]); ++k) {
+    for (std::size_t r = 0; r < at(all.size); ++r) {
+        for (auto k = at(all.offsets[r]); k < at(all.offsets[r + 1]); ++k) {
             dense(static_cast<Eigen::Index>(r), all.columns[k]) = all.values[k];
         }
     }
@@ -203,6 +200,7 @@ struct Progress {
     double residual = 0.0;
 };
 
+// NOLINTNEXTLINE(readability-function-size): SLEPc prescribes the parameters
 PetscErrorCode note_progress(EPS /*solver*/, PetscInt /*iteration*/, PetscInt converged,
                              PetscScalar* /*real*/, PetscScalar* /*imaginary*/, PetscReal* estimates,
                              PetscInt estimated, void* context) {
@@ -238,43 +236,47 @@ void refuse_unconverged(EPS solver, int wanted, const Progress& progress) {
     check(EPSGetConverged(solver, &converged), "EPSGetConverged");
     check(EPSGetIterationNumber(solver, &iterations), "EPSGetIterationNumber");
     if (reason > 0 && converged >= wanted) return;
-    char residual[32];
-    std::snprintf(residual, sizeof residual, "%.3g", progress.residual);
     throw Error(ExitCode::not_converged,
                 "the cut's eigenvectors did not converge: " + std::to_string(converged) + " of " +
                     std::to_string(wanted) + " after " + std::to_string(iterations) +
-                    " restarts, the next with residual " + residual +
+                    " restarts, the next with residual " + significant(progress.residual) +
                     "; give the solver a larger basis (-- -eps_ncv 200)");
 }
 
-/// On the root alone, while the other ranks serve products: the `wanted` largest eigenpairs orthogonal to
-/// `known`.
-EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const EigenPairs& known, int wanted,
-                           std::uint64_t trial, const SpectralOptions& options) {
+/// The `wanted` largest eigenpairs orthogonal to `known`, from start number `trial`.
+struct EigenSearch {
+    const EigenPairs& known;
+    int wanted = 1;
+    std::uint64_t trial = 0;
+};
+
+/// On the root alone, while the other ranks serve products.
+EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const EigenSearch& search,
+                           const SpectralOptions& options) {
     const PetscMatrix matrix = shell_matrix(product);
     std::vector<PetscVector> deflated;
     std::vector<Vec> handles;
-    for (Eigen::Index k = 0; k < known.vectors.cols(); ++k) {
-        deflated.push_back(to_petsc(matrix.get(), known.vectors.col(k)));
+    for (Eigen::Index k = 0; k < search.known.vectors.cols(); ++k) {
+        deflated.push_back(to_petsc(matrix.get(), search.known.vectors.col(k)));
         handles.push_back(deflated.back().get());
     }
-    const PetscVector start = to_petsc(matrix.get(), start_vector(op, trial));
+    const PetscVector start = to_petsc(matrix.get(), start_vector(op, search.trial));
     Vec initial = start.get();
     Progress progress;
     EigenSolver solver;
     check(EPSCreate(PETSC_COMM_SELF, solver.out()), "EPSCreate");
-    configure(solver.get(), matrix.get(), wanted, options, progress);
+    configure(solver.get(), matrix.get(), search.wanted, options, progress);
     if (!handles.empty()) {
         check(EPSSetDeflationSpace(solver.get(), static_cast<PetscInt>(handles.size()), handles.data()),
               "EPSSetDeflationSpace");
     }
     check(EPSSetInitialSpace(solver.get(), 1, &initial), "EPSSetInitialSpace");
     check(EPSSolve(solver.get()), "EPSSolve");
-    refuse_unconverged(solver.get(), wanted, progress);
+    refuse_unconverged(solver.get(), search.wanted, progress);
     EigenPairs found;
     PetscVector vector;
     check(MatCreateVecs(matrix.get(), vector.out(), nullptr), "MatCreateVecs");
-    for (int k = 0; k < wanted; ++k) {
+    for (int k = 0; k < search.wanted; ++k) {
         PetscScalar value = 0.0;
         check(EPSGetEigenpair(solver.get(), k, &value, nullptr, vector.get(), nullptr), "EPSGetEigenpair");
         found.append(value, to_eigen(vector.get(), static_cast<Eigen::Index>(op.degree.size())));
@@ -284,22 +286,21 @@ EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const 
 
 /// The same on all ranks, with the root's bits. Collective.
 EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, ServedProduct& product,
-                             const EigenPairs& known, int wanted, std::uint64_t trial,
-                             const SpectralOptions& options) {
+                             const EigenSearch& search, const SpectralOptions& options) {
     EigenPairs found;
     // The root lets the others go however its step ends, so nobody waits for a product that does not come.
     agree(comm, [&] {
         if (comm.is_root()) {
             const ServedProduct::Release release(product);
-            found = root_eigenpairs(op, product, known, wanted, trial, options);
+            found = root_eigenpairs(op, product, search, options);
         } else {
             product.serve();
         }
     });
-    found.values.resize(static_cast<std::size_t>(wanted));
-    found.vectors.resize(static_cast<Eigen::Index>(op.degree.size()), wanted);
-    MPI_Bcast(found.values.data(), wanted, MPI_DOUBLE, 0, comm.raw());
-    for (Eigen::Index k = 0; k < wanted; ++k) {
+    found.values.resize(at(search.wanted));
+    found.vectors.resize(static_cast<Eigen::Index>(op.degree.size()), search.wanted);
+    MPI_Bcast(found.values.data(), search.wanted, MPI_DOUBLE, 0, comm.raw());
+    for (Eigen::Index k = 0; k < search.wanted; ++k) {
         MPI_Bcast(found.vectors.col(k).data(), static_cast<int>(found.vectors.rows()), MPI_DOUBLE, 0,
                   comm.raw());
     }
@@ -326,9 +327,9 @@ void find_missed_pairs(const Comm& comm, const CutOperator& op, ServedProduct& p
     coarse.tolerance = std::max(options.tolerance, 1e-5);
     const std::size_t count = pairs.values.size();
     for (std::size_t round = 0; round < count; ++round) {
-        const EigenPairs look = krylov_eigenpairs(comm, op, product, pairs, 1, round + 1, coarse);
+        const EigenPairs look = krylov_eigenpairs(comm, op, product, {pairs, 1, round + 1}, coarse);
         if (look.values[0] <= pairs.values.back() + 1e-8) return;
-        const EigenPairs next = krylov_eigenpairs(comm, op, product, pairs, 1, round + 1, options);
+        const EigenPairs next = krylov_eigenpairs(comm, op, product, {pairs, 1, round + 1}, options);
         pairs.append(next.values[0], next.vectors.col(0));
         sort_descending(pairs);
         pairs.values.resize(count);
@@ -350,7 +351,7 @@ EigenPairs sparse_eigenpairs(const Comm& comm, const CutOperator& op, int count,
     if (wanted <= 0) return pairs;
     ServedProduct product(comm, op.matrix,
                           comm.is_root() ? mesh_balance(op, options, mesh_of) : GroupBalance{});
-    const EigenPairs found = krylov_eigenpairs(comm, op, product, pairs, wanted, 0, options);
+    const EigenPairs found = krylov_eigenpairs(comm, op, product, {pairs, wanted, 0}, options);
     for (int k = 0; k < wanted; ++k) pairs.append(found.values[at(k)], found.vectors.col(k));
     if (count < static_cast<int>(op.rows.size())) find_missed_pairs(comm, op, product, options, pairs);
     return pairs;

@@ -24,8 +24,8 @@ PaperDualBound::PaperDualBound(const FeatureStack& stack, double alpha, double b
       lambda_(lambda),
       row_sums_(row_sums),
       raise_(row_sums.size(), 0.0),
-      excess_(static_cast<std::size_t>(stack.features)),
-      sums_(0, 1.0, scalar_count) {}
+      excess_(at(stack.features)),
+      sums_(scalar_count) {}
 
 void PaperDualBound::begin_tile(int first, int width, const double* reconstruction) {
     width_ = width;
@@ -46,8 +46,8 @@ void PaperDualBound::begin_tile(int first, int width, const double* reconstructi
 
 double PaperDualBound::check_pair(int c, int i, const double* scores, double rounding) {
     const std::size_t features = excess_.size();
-    const std::size_t row = static_cast<std::size_t>(i) * features;
-    const double* residual_norm = residual_norm_.data() + static_cast<std::size_t>(c) * features;
+    const std::size_t row = at(i) * features;
+    const double* residual_norm = residual_norm_.data() + at(c) * features;
     double squares = 0.0;
     double plain_squares = 0.0;
     for (std::size_t h = 0; h < features; ++h) {
@@ -67,8 +67,8 @@ double PaperDualBound::check_pair(int c, int i, const double* scores, double rou
 /// Both repairs shorten the excess at hand, of the given norm, to alpha.
 void PaperDualBound::repair(int c, int i, double norm) {
     const std::size_t features = excess_.size();
-    const std::size_t row = static_cast<std::size_t>(i) * features;
-    double* shift = shift_.data() + static_cast<std::size_t>(c) * features;
+    const std::size_t row = at(i) * features;
+    double* shift = shift_.data() + at(c) * features;
     const double cut = (1.0 - alpha_ / norm) + 4.0 * epsilon;
     for (std::size_t h = 0; h < features; ++h) {
         const double needed = excess_[h] * cut * (1.0 + 4.0 * epsilon);
@@ -91,8 +91,9 @@ void PaperDualBound::end_tile() {
 }
 
 double PaperDualBound::raised_cost(const Comm& comm) {
-    MPI_Allreduce(MPI_IN_PLACE, raise_.data(), static_cast<int>(raise_.size()), MPI_DOUBLE, MPI_MAX,
-                  comm.raw());
+    in_messages(std::ssize(raise_), [&](std::int64_t first, int count) {
+        MPI_Allreduce(MPI_IN_PLACE, raise_.data() + first, count, MPI_DOUBLE, MPI_MAX, comm.raw());
+    });
     double squares = 0.0;
     for (std::size_t entry = 0; entry < raise_.size(); ++entry) {
         const double price = 2.0 * lambda_ * row_sums_[entry] + raise_[entry];

@@ -15,10 +15,10 @@
 #include <span>
 #include <vector>
 
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/subspace/feature_stack.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 

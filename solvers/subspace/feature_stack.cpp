@@ -7,6 +7,7 @@
 
 #include "solvers/numeric/pair_score_kernel.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/parallel/block_range.hpp"
 
 namespace coseg {
@@ -74,7 +75,7 @@ FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, st
 PanelColumns::PanelColumns(const Comm& comm, const FeatureStack& stack)
     : count_((stack.size + panel_rows - 1) / panel_rows),
       dimension_(stack.dimension),
-      values_(comm, static_cast<std::size_t>(count_) * static_cast<std::size_t>(panel_rows * dimension_)) {
+      values_(comm, at(count_) * at(panel_rows * dimension_)) {
     const Comm& here = values_.ranks().here();
     const BlockRange part = block_range(count_, here.size(), here.rank());
     for (std::int64_t panel = part.begin; panel < part.end; ++panel) {
@@ -94,7 +95,7 @@ const float* PanelColumns::rows(int panel, int offset) const noexcept {
 }
 
 SingleColumns::SingleColumns(const Comm& comm, const FeatureStack& stack)
-    : values_(comm, static_cast<std::size_t>(stack.columns.size())) {
+    : values_(comm, at(stack.columns.size())) {
     const Comm& here = values_.ranks().here();
     const BlockRange part = block_range(stack.size, here.size(), here.rank());
     const std::int64_t begin = part.begin * stack.dimension;

@@ -13,13 +13,13 @@ namespace {
 /// Per owned column 2H sums over its pairs: of all of them, then of those inside the column's part.
 std::vector<double> column_sums(const SparseCoefficients& coefficients,
                                 const std::vector<int>& part_of_patch) {
-    const auto features = static_cast<std::size_t>(coefficients.features);
-    std::vector<double> sums(static_cast<std::size_t>(coefficients.columns.size()) * 2 * features, 0.0);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(coefficients.columns.size()); ++c) {
+    const auto features = at(coefficients.features);
+    std::vector<double> sums(at(coefficients.columns.size()) * 2 * features, 0.0);
+    for (std::size_t c = 0; c < at(coefficients.columns.size()); ++c) {
         const int part = part_of_patch[at(coefficients.columns.begin) + c];
         double* const all = sums.data() + c * 2 * features;
-        const auto end = static_cast<std::size_t>(coefficients.offsets[c + 1]);
-        for (auto k = static_cast<std::size_t>(coefficients.offsets[c]); k < end; ++k) {
+        const auto end = at(coefficients.offsets[c + 1]);
+        for (auto k = at(coefficients.offsets[c]); k < end; ++k) {
             const bool same_part = part_of_patch[at(coefficients.rows[k])] == part;
             for (std::size_t h = 0; h < features; ++h) {
                 const double w = std::abs(coefficients.values[k * features + h]);
@@ -34,18 +34,18 @@ std::vector<double> column_sums(const SparseCoefficients& coefficients,
 /// Per owned column, per part of the row: the sum over its pairs of ||w_ij||_2.
 std::vector<double> column_blocks(const SparseCoefficients& coefficients,
                                   const std::vector<int>& part_of_patch, std::size_t parts) {
-    const auto features = static_cast<std::size_t>(coefficients.features);
-    std::vector<double> sums(static_cast<std::size_t>(coefficients.columns.size()) * parts, 0.0);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(coefficients.columns.size()); ++c) {
-        const auto end = static_cast<std::size_t>(coefficients.offsets[c + 1]);
-        for (auto k = static_cast<std::size_t>(coefficients.offsets[c]); k < end; ++k) {
+    const auto features = at(coefficients.features);
+    std::vector<double> sums(at(coefficients.columns.size()) * parts, 0.0);
+    for (std::size_t c = 0; c < at(coefficients.columns.size()); ++c) {
+        const auto end = at(coefficients.offsets[c + 1]);
+        for (auto k = at(coefficients.offsets[c]); k < end; ++k) {
             double squares = 0.0;
             for (std::size_t h = 0; h < features; ++h) {
                 const double w = coefficients.values[k * features + h];
                 squares += w * w;
             }
             const int part = part_of_patch[at(coefficients.rows[k])];
-            sums[c * parts + static_cast<std::size_t>(part)] += std::sqrt(squares);
+            sums[c * parts + at(part)] += std::sqrt(squares);
         }
     }
     return sums;
@@ -59,7 +59,7 @@ std::vector<std::vector<double>> block_structure(const Comm& comm, const SparseC
     double total = 0.0;
     for (std::size_t j = 0; j < part_of_patch.size(); ++j) {
         for (std::size_t row = 0; row < parts; ++row) {
-            blocks[row * parts + static_cast<std::size_t>(part_of_patch[j])] += sums[j * parts + row];
+            blocks[row * parts + at(part_of_patch[j])] += sums[j * parts + row];
             total += sums[j * parts + row];
         }
     }
@@ -70,7 +70,7 @@ std::vector<std::vector<double>> block_structure(const Comm& comm, const SparseC
 }
 
 std::vector<std::int64_t> count_pairs(const Comm& comm, const SparseCoefficients& coefficients) {
-    const auto features = static_cast<std::size_t>(coefficients.features);
+    const auto features = at(coefficients.features);
     std::vector<std::int64_t> counts(features + 1, 0);
     for (std::size_t k = 0; k < coefficients.rows.size(); ++k) {
         std::size_t nonzero = 0;
@@ -92,16 +92,16 @@ void scale_to_shares(std::vector<double>& values) {
 
 FeatureStrength feature_strength(const Comm& comm, const SparseCoefficients& coefficients,
                                  const std::vector<int>& part_of_patch, int parts) {
-    const auto features = static_cast<std::size_t>(coefficients.features);
+    const auto features = at(coefficients.features);
     const std::vector<double> sums =
         all_gather(comm, std::span<const double>(column_sums(coefficients, part_of_patch)));
     FeatureStrength strength;
     strength.overall.assign(features, 0.0);
-    strength.of_part.assign(static_cast<std::size_t>(parts), std::vector<double>(features, 0.0));
-    strength.inside.assign(static_cast<std::size_t>(parts), 0.0);
-    std::vector<double> whole(static_cast<std::size_t>(parts), 0.0);
+    strength.of_part.assign(at(parts), std::vector<double>(features, 0.0));
+    strength.inside.assign(at(parts), 0.0);
+    std::vector<double> whole(at(parts), 0.0);
     for (std::size_t j = 0; j < part_of_patch.size(); ++j) {
-        const auto part = static_cast<std::size_t>(part_of_patch[j]);
+        const auto part = at(part_of_patch[j]);
         const double* const all = sums.data() + j * 2 * features;
         for (std::size_t h = 0; h < features; ++h) {
             strength.overall[h] += all[h];
@@ -115,7 +115,7 @@ FeatureStrength feature_strength(const Comm& comm, const SparseCoefficients& coe
         scale_to_shares(strength.of_part[part]);
     }
     scale_to_shares(strength.overall);
-    strength.blocks = block_structure(comm, coefficients, part_of_patch, static_cast<std::size_t>(parts));
+    strength.blocks = block_structure(comm, coefficients, part_of_patch, at(parts));
     strength.pairs_by_features = count_pairs(comm, coefficients);
     return strength;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -45,19 +47,21 @@ double shrink_group(std::span<double> v, double step, double alpha, double beta)
     return shorten_group(v, norm, step * alpha);
 }
 
-double exclusive_shrink(std::span<double> v, int features, double step, double alpha, double beta,
-                        double lambda, ExclusiveShrinkScratch& scratch) {
-    const auto width = static_cast<std::size_t>(features);
+double exclusive_shrink(std::span<double> v, int features, double step, const ColumnPenalties& penalties,
+                        ExclusiveShrinkScratch& scratch) {
+    const double clipped = step * penalties.beta;
+    const double shortened = step * penalties.alpha;
+    const auto width = at(features);
     const std::size_t pairs = v.size() / width;
     scratch.norm.resize(pairs);
     scratch.sorted.clear();
     for (std::size_t p = 0; p < pairs; ++p) {
-        scratch.norm[p] = clip_group(v.subspan(p * width, width), step * beta);
-        if (scratch.norm[p] > step * alpha) scratch.sorted.push_back(scratch.norm[p] - step * alpha);
+        scratch.norm[p] = clip_group(v.subspan(p * width, width), clipped);
+        if (scratch.norm[p] > shortened) scratch.sorted.push_back(scratch.norm[p] - shortened);
     }
     std::sort(scratch.sorted.begin(), scratch.sorted.end(), std::greater<>());
-    const double shrink_per_sum = 2.0 * step * lambda;
-    const double shift = step * alpha + shrink_per_sum * sum_after_shrinkage(scratch.sorted, shrink_per_sum);
+    const double shrink_per_sum = 2.0 * step * penalties.lambda;
+    const double shift = shortened + shrink_per_sum * sum_after_shrinkage(scratch.sorted, shrink_per_sum);
     double sum = 0.0;
     for (std::size_t p = 0; p < pairs; ++p) {
         sum += shorten_group(v.subspan(p * width, width), scratch.norm[p], shift);

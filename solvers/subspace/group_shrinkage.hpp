@@ -12,6 +12,13 @@ namespace coseg {
 /// is the prox of the sparse group lasso (Simon et al. 2013): subtract, clip, scale.
 double shrink_group(std::span<double> v, double step, double alpha, double beta) noexcept;
 
+/// The penalties of a column's problem.
+struct ColumnPenalties {
+    double alpha = 0.0;
+    double beta = 0.0;
+    double lambda = 0.0;
+};
+
 /// Memory that exclusive_shrink uses again in each call.
 struct ExclusiveShrinkScratch {
     std::vector<double> norm;
@@ -22,7 +29,7 @@ struct ExclusiveShrinkScratch {
 /// ||w_i|| + beta sum w). `v` holds the pairs of one group, `features` values of a pair together. The result
 /// is exact: norms are sorted, not iterated on. Returns sum_i ||w_i||. Source: the prox of the exclusive
 /// lasso (Kowalski 2009, Property 3), applied to the norms of the pairs.
-double exclusive_shrink(std::span<double> v, int features, double step, double alpha, double beta,
-                        double lambda, ExclusiveShrinkScratch& scratch);
+double exclusive_shrink(std::span<double> v, int features, double step, const ColumnPenalties& penalties,
+                        ExclusiveShrinkScratch& scratch);
 
 }  // namespace coseg

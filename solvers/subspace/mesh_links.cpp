@@ -19,8 +19,8 @@ std::vector<int> random_cycle(const std::vector<std::string>& names, std::uint64
     std::vector<int> order(names.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](int a, int b) {
-        const auto i = static_cast<std::size_t>(a);
-        const auto j = static_cast<std::size_t>(b);
+        const auto i = at(a);
+        const auto j = at(b);
         return key[i] != key[j] ? key[i] < key[j] : names[i] < names[j];
     });
     return order;
@@ -47,14 +47,14 @@ int add_cycle(const std::vector<int>& cycle, std::size_t wanted, std::vector<std
 
 std::vector<std::vector<int>> mesh_links(const std::vector<std::string>& names, int links,
                                          std::uint64_t seed) {
-    const auto wanted = static_cast<std::size_t>(links);
+    const auto wanted = at(links);
     if (wanted + 1 >= names.size()) return {};
     std::vector<std::vector<int>> result(names.size());
     std::size_t missing = names.size() * wanted / 2;
     // Half as many cycles as links would do if no two shared a link and none met a mesh that has enough.
     const std::size_t most_cycles = 4 * wanted + 16;
     for (std::uint64_t cycle = 0; cycle < most_cycles && missing > 0; ++cycle) {
-        missing -= static_cast<std::size_t>(add_cycle(random_cycle(names, seed, cycle), wanted, result));
+        missing -= at(add_cycle(random_cycle(names, seed, cycle), wanted, result));
     }
     for (std::vector<int>& of_mesh : result) std::sort(of_mesh.begin(), of_mesh.end());
     return result;

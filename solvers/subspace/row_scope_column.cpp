@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "solvers/numeric/inner_product.hpp"
+#include "src/base/index.hpp"
 #include "src/base/vector_clones.hpp"
 
 namespace coseg {
@@ -62,14 +63,14 @@ void apply_stored_gram(const RowScopeColumn& fit, std::size_t features, const do
 COSEG_VECTOR_CLONES
 void feature_products(const FeatureStack& stack, int row, const double* y, double* products) {
     const double* x = column_of(stack, row);
-    for (std::size_t h = 0; h < static_cast<std::size_t>(stack.features); ++h) {
+    for (std::size_t h = 0; h < at(stack.features); ++h) {
         const int begin = stack.offset[h];
         products[h] = inner_product(x + begin, y + begin, stack.offset[h + 1] - begin);
     }
 }
 
 void prepare_row_scope_column(const FeatureStack& stack, int column, RowScopeColumn& fit) {
-    const auto features = static_cast<std::size_t>(stack.features);
+    const auto features = at(stack.features);
     const std::size_t pairs = fit.rows.size();
     fit.linear.resize(pairs * features);
     for (std::size_t p = 0; p < pairs; ++p) {
@@ -91,7 +92,7 @@ COSEG_VECTOR_CLONES
 void reconstruct(const FeatureStack& stack, const RowScopeColumn& fit, const double* weights,
                  double* reconstruction) {
     std::fill_n(reconstruction, stack.dimension, 0.0);
-    const auto features = static_cast<std::size_t>(stack.features);
+    const auto features = at(stack.features);
     for (std::size_t p = 0; p < fit.rows.size(); ++p) {
         const double* x = column_of(stack, fit.rows[p]);
         for (std::size_t h = 0; h < features; ++h) {
@@ -104,10 +105,10 @@ void reconstruct(const FeatureStack& stack, const RowScopeColumn& fit, const dou
 
 void apply_gram(const FeatureStack& stack, const RowScopeColumn& fit, const double* weights,
                 double* product) {
-    const auto features = static_cast<std::size_t>(stack.features);
+    const auto features = at(stack.features);
     const std::size_t pairs = fit.rows.size();
     if (fit.gram.empty()) {
-        std::vector<double> reconstruction(static_cast<std::size_t>(stack.dimension));
+        std::vector<double> reconstruction(at(stack.dimension));
         reconstruct(stack, fit, weights, reconstruction.data());
         for (std::size_t p = 0; p < pairs; ++p) {
             feature_products(stack, fit.rows[p], reconstruction.data(), product + p * features);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solvers/numeric/exact_sum.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -71,7 +71,7 @@ std::vector<ColumnRound> joined_rounds(const Comm& comm, const std::vector<std::
     const auto count = static_cast<std::size_t>(all_max(comm, static_cast<double>(longest(tiles))));
     std::vector<ColumnRound> all = joined_rounds(tiles);
     all.resize(count, all.empty() ? ColumnRound{} : all.back());
-    ExactSum sums(0, 1.0, 2 * count);
+    ExactSum sums(2 * count);
     std::vector<int> iterations(count, 0);
     std::vector<std::int64_t> pairs(count, 0);
     for (std::size_t k = 0; k < count; ++k) {

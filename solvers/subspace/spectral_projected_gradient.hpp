@@ -16,6 +16,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 /// The objective of a trial point, and its position relative to the current point.
@@ -54,7 +56,7 @@ class SpectralStep {
     }
 
     explicit SpectralStep(const SpectralState& state)
-        : step_(state.step), recent_(state.recent), count_(static_cast<std::size_t>(state.count)) {}
+        : step_(state.step), recent_(state.recent), count_(at(state.count)) {}
 
     [[nodiscard]] SpectralState state(int iterations) const noexcept {
         return {step_, recent_, static_cast<std::int64_t>(count_), iterations};

@@ -6,11 +6,7 @@
 namespace coseg {
 
 StoppingRule::StoppingRule(const Comm& comm, const SolveOptions& options, double objective_at_zero)
-    : comm_(comm),
-      options_(options),
-      objective_at_zero_(objective_at_zero),
-      start_(MPI_Wtime()),
-      objective_(objective_at_zero) {}
+    : comm_(comm), options_(options), objective_at_zero_(objective_at_zero), objective_(objective_at_zero) {}
 
 bool StoppingRule::certify(double objective, double lower_bound) {
     objective_ = objective;
@@ -27,7 +23,7 @@ bool StoppingRule::limit_reached(int iterations, double kkt_residual) {
         limit_ = StopReason::iteration_limit;
         return true;
     }
-    if (all_max(comm_, MPI_Wtime() - start_) >= options_.max_seconds) {
+    if (all_max(comm_, clock_.seconds()) >= options_.max_seconds) {
         limit_ = StopReason::time_limit;
         return true;
     }

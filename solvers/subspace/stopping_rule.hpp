@@ -5,6 +5,7 @@
 #include "solvers/subspace/feature_stack.hpp"
 #include "solvers/subspace/solve_result.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
+#include "src/base/stopwatch.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
@@ -40,7 +41,7 @@ class StoppingRule {
     const Comm& comm_;
     SolveOptions options_;
     double objective_at_zero_;
-    double start_;
+    Stopwatch clock_;
     double objective_;
     double lower_bound_ = 0.0;
     StopReason limit_ = StopReason::iteration_limit;

@@ -70,14 +70,14 @@ std::int64_t allowed_pair_count(const SubspaceProblem& problem) {
     const std::int64_t n = problem.size();
     if (problem.scope == PenaltyScope::rows) return n * (n - 1);
     const int meshes = 1 + *std::max_element(problem.mesh_of.begin(), problem.mesh_of.end());
-    std::vector<std::int64_t> patches(static_cast<std::size_t>(meshes), 0);
+    std::vector<std::int64_t> patches(at(meshes), 0);
     for (const int mesh : problem.mesh_of) ++patches[at(mesh)];
     std::int64_t pairs = 0;
     for (std::size_t m = 0; m < patches.size(); ++m) {
         std::int64_t rows = problem.allowed_meshes.empty() ? n - patches[m] : 0;
         if (!problem.allowed_meshes.empty()) {
             for (const int other : problem.allowed_meshes[m]) {
-                const auto o = static_cast<std::size_t>(other);
+                const auto o = at(other);
                 if (o != m && o < patches.size()) rows += patches[o];
             }
         }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/subspace/coefficients.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 

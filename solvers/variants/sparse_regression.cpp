@@ -6,10 +6,11 @@
 #include <limits>
 
 #include "solvers/numeric/blas.hpp"
-#include "solvers/numeric/exact_sum.hpp"
 #include "solvers/subspace/feature_stack.hpp"
 #include "solvers/subspace/row_scope_column.hpp"
 #include "src/base/index.hpp"
+#include "src/base/stopwatch.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 namespace coseg {
 
@@ -58,11 +59,7 @@ struct Survey {
 class SparseRegression {
   public:
     SparseRegression(const SubspaceProblem& problem, Sign sign, const SolveOptions& options)
-        : stack_(stack_features(problem)),
-          beta_(problem.beta),
-          sign_(sign),
-          options_(options),
-          start_(MPI_Wtime()) {}
+        : stack_(stack_features(problem)), beta_(problem.beta), sign_(sign), options_(options) {}
 
     std::vector<Column> solve_tile(std::int64_t begin, std::int64_t end);
     [[nodiscard]] const FeatureStack& stack() const noexcept { return stack_; }
@@ -89,7 +86,7 @@ class SparseRegression {
     double beta_;
     Sign sign_;
     const SolveOptions& options_;
-    double start_;
+    Stopwatch clock_;
     int passes_ = 0;
     bool timed_out_ = false;
 };
@@ -126,13 +123,14 @@ std::vector<Survey> SparseRegression::look(const std::vector<Column*>& columns) 
     std::vector<double> residuals;
     for (const Column* column : columns)
         residuals.insert(residuals.end(), column->residual.begin(), column->residual.end());
-    std::vector<double> scores(static_cast<std::size_t>(chunk_rows) * columns.size());
+    std::vector<double> scores(at(chunk_rows) * columns.size());
     std::vector<Survey> surveys(columns.size());
     for (int begin = 0; begin < stack_.size; begin += chunk_rows) {
         const int end = std::min(begin + chunk_rows, stack_.size);
-        multiply_transposed(end - begin, width, dimension,
-                            stack_.columns.data() + static_cast<std::int64_t>(begin) * dimension, dimension,
-                            residuals.data(), dimension, 0.0, scores.data(), chunk_rows);
+        const double* chunk = stack_.columns.data() + static_cast<std::int64_t>(begin) * dimension;
+        multiply_transposed({chunk, dimension, end - begin, dimension},
+                            {residuals.data(), dimension, width, dimension}, 0.0,
+                            {scores.data(), end - begin, width, chunk_rows});
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const double* score = scores.data() + c * chunk_rows;
             for (int i = begin; i < end; ++i) inspect(*columns[c], i, score[i - begin], surveys[c]);
@@ -289,7 +287,7 @@ void SparseRegression::solve_inside(Column& column) const {
             column.limited = true;
             break;
         }
-        if (MPI_Wtime() - start_ >= options_.max_seconds) break;
+        if (clock_.seconds() >= options_.max_seconds) break;
     }
     measure(column);
 }
@@ -318,7 +316,7 @@ std::vector<Column> SparseRegression::solve_tile(std::int64_t begin, std::int64_
                 solve_inside(column);
             }
         }
-        timed_out_ = timed_out_ || MPI_Wtime() - start_ >= options_.max_seconds;
+        timed_out_ = timed_out_ || clock_.seconds() >= options_.max_seconds;
         std::erase_if(open, [](const Column* column) { return !column->open; });
     }
     passes_ = std::max(passes_, passes);
@@ -346,9 +344,8 @@ struct Totals {
 };
 
 StopReason reason_of(const Comm& comm, const Totals& totals, bool timed_out) {
-    if (all_max(comm, timed_out ? 1.0 : 0.0) > 0.0) return StopReason::time_limit;
-    return all_max(comm, totals.limited ? 1.0 : 0.0) > 0.0 ? StopReason::iteration_limit
-                                                           : StopReason::residual_reached;
+    if (any_rank(comm, timed_out)) return StopReason::time_limit;
+    return any_rank(comm, totals.limited) ? StopReason::iteration_limit : StopReason::residual_reached;
 }
 
 double relative_gap(double objective, double lower_bound, double objective_at_zero) {
@@ -377,7 +374,7 @@ SolveResult solve_sparse_regression(const Comm& comm, const SubspaceProblem& pro
     SolveResult result;
     const BlockRange owned = block_range(problem.size(), comm.size(), comm.rank(), coefficient_tile);
     result.coefficients = {problem.size(), owned, 1, {0}, {}, {}};
-    ExactSum sums(0, 1.0, 2);
+    ExactSum sums(2);
     Totals totals;
     for (std::int64_t begin = owned.begin; begin < owned.end; begin += coefficient_tile) {
         std::vector<std::vector<ColumnRound>> rounds;

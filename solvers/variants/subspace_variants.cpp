@@ -43,8 +43,8 @@ SparseCoefficients side_by_side(const std::vector<SparseCoefficients>& features)
     for (std::size_t c = 0; c + 1 < first.offsets.size(); ++c) {
         std::map<int, std::vector<double>> pairs;
         for (std::size_t h = 0; h < features.size(); ++h) {
-            const auto end = static_cast<std::size_t>(features[h].offsets[c + 1]);
-            for (auto e = static_cast<std::size_t>(features[h].offsets[c]); e < end; ++e) {
+            const auto end = at(features[h].offsets[c + 1]);
+            for (auto e = at(features[h].offsets[c]); e < end; ++e) {
                 std::vector<double>& values = pairs[features[h].rows[e]];
                 values.resize(features.size(), 0.0);
                 values[h] = features[h].values[e];
@@ -146,8 +146,7 @@ SolveResult solve_variant(const Comm& comm, const SubspaceProblem& problem, Subs
         case SubspaceVariant::multi_feature:
             break;
         case SubspaceVariant::single_feature:
-            return solve_subspace(comm, of_one_feature(comm, problem, static_cast<std::size_t>(feature)),
-                                  options);
+            return solve_subspace(comm, of_one_feature(comm, problem, at(feature)), options);
         case SubspaceVariant::independent:
             return solve_independent(comm, problem, options);
         case SubspaceVariant::concatenated:

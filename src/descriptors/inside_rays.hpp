@@ -2,9 +2,9 @@
 // Rays that start inside a solid and end where they leave it.
 
 #include <Eigen/Core>
-#include <memory>
 #include <span>
 
+#include "src/mesh/ray_scene.hpp"
 #include "src/mesh/tri_mesh.hpp"
 
 namespace coseg {
@@ -16,11 +16,6 @@ class InsideRays {
   public:
     /// mesh: at least one face, finite.
     explicit InsideRays(const TriMesh& mesh);
-    ~InsideRays();
-    InsideRays(InsideRays&&) noexcept;
-    InsideRays& operator=(InsideRays&&) noexcept;
-    InsideRays(const InsideRays&) = delete;
-    InsideRays& operator=(const InsideRays&) = delete;
 
     /// Distance, in the unit of the mesh, from `origin` along each of n directions (3 x n, unit length) to
     /// the nearest face that the ray meets from inside (direction . normal > 0). `distance`: n values, 0
@@ -31,8 +26,10 @@ class InsideRays {
               std::span<double> distance) const;
 
   private:
-    struct Scene;
-    std::unique_ptr<Scene> scene_;
+    InsideRays(const TriMesh& mesh, const Eigen::Vector3d& centre, double scale);
+    Eigen::Vector3d centre_;
+    double scale_;
+    RayScene scene_;
 };
 
 }  // namespace coseg

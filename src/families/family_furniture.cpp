@@ -67,8 +67,8 @@ PrimitivePointer leg(const LegStyle& style, const Vector2d& place, const Slab& s
 }
 
 /// Bars between neighbouring legs, at the share `share` of the height, of radius `smallest` at least.
-void add_stretchers(ImplicitShape& shape, int label, const LegStyle& style, std::vector<Vector2d> places,
-                    double height, double share, double smallest) {
+void add_stretchers(ImplicitShape& shape, const LegStyle& style, std::vector<Vector2d> places, double height,
+                    double share, double smallest) {
     std::sort(places.begin(), places.end(), [](const Vector2d& a, const Vector2d& b) {
         return std::atan2(a[1], a[0]) < std::atan2(b[1], b[0]);
     });
@@ -80,7 +80,7 @@ void add_stretchers(ImplicitShape& shape, int label, const LegStyle& style, std:
         return Vector3d(place[0] * reach, place[1] * reach, share * height);
     };
     for (std::size_t i = 0; i < places.size(); ++i) {
-        shape.add(label, 0.02,
+        shape.add(1, 0.02,
                   round_chain({ball(joint(places[i]), radius),
                                ball(joint(places[(i + 1) % places.size()]), radius)}));
     }
@@ -104,19 +104,19 @@ ImplicitShape make_table(SeededStream& random, int index) {
     const auto places = leg_places(legs, !round, inset * half_x, inset * half_y, random.uniform(0.0, turn));
     for (const Vector2d& place : places) shape.add(1, 0.02, leg(style, place, {height, half_thickness}));
     if (random.uniform() < 0.3)
-        add_stretchers(shape, 1, style, places, height, random.uniform(0.18, 0.4), 0.034);
+        add_stretchers(shape, style, places, height, random.uniform(0.18, 0.4), 0.034);
     return shape;
 }
 
 namespace {
 
-/// A panel, or posts with rails, standing on the seat's rear edge (at -x) and leaning back.
-void add_chair_back(ImplicitShape& shape, SeededStream& random, int style, double rear, double half_width,
-                    double seat, double radius) {
+/// A panel, or posts with rails, leaning back from `foot`, the middle of the seat's rear edge (at -x).
+void add_chair_back(ImplicitShape& shape, SeededStream& random, int style, const Vector3d& foot,
+                    double half_width) {
+    constexpr double radius = 0.032;
     const double height = random.uniform(0.38, 0.75);
     const double lean = random.uniform(0.0, 0.22);
     const Vector3d up(-std::sin(lean), 0.0, std::cos(lean));
-    const Vector3d foot(rear, 0.0, seat);
     if (style == 0) {
         Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
         frame.linear().col(0) = Vector3d::UnitY();
@@ -183,12 +183,12 @@ ImplicitShape make_chair(SeededStream& random, int index) {
         const auto places = leg_places(4, true, inset * half_depth, inset * half_width, 0.0);
         for (const Vector2d& place : places) shape.add(1, 0.018, leg(style, place, {seat, half_thickness}));
         if (random.uniform() < 0.25)
-            add_stretchers(shape, 1, style, places, seat, random.uniform(0.2, 0.45), 0.026);
+            add_stretchers(shape, style, places, seat, random.uniform(0.2, 0.45), 0.026);
     }
     if (index % 7 != 5) {
         const double shrink = round ? 0.6 : 1.0;
-        add_chair_back(shape, random, index % 3, -(round ? 0.72 : 1.0) * half_depth + 0.05,
-                       shrink * half_width - 0.02, seat, 0.032);
+        const Vector3d foot(-(round ? 0.72 : 1.0) * half_depth + 0.05, 0.0, seat);
+        add_chair_back(shape, random, index % 3, foot, shrink * half_width - 0.02);
     }
     return shape;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -28,10 +29,10 @@ struct Lattice {
     std::vector<double> centre_value;
 
     [[nodiscard]] std::size_t corner(int i, int j, int k) const {
-        return (static_cast<std::size_t>(i) * (cells[1] + 1) + j) * (cells[2] + 1) + k;
+        return (at(i) * (cells[1] + 1) + j) * (cells[2] + 1) + k;
     }
     [[nodiscard]] std::size_t centre(int i, int j, int k) const {
-        return (static_cast<std::size_t>(i) * cells[1] + j) * cells[2] + k;
+        return (at(i) * cells[1] + j) * cells[2] + k;
     }
     [[nodiscard]] Vector3d corner_point(int i, int j, int k) const {
         return origin + spacing * Vector3d(i, j, k);

@@ -91,7 +91,7 @@ TriMesh even_triangles(const ImplicitShape& shape, TriMesh mesh, int target_face
 
 std::vector<int> part_labels(const ImplicitShape& shape, const TriMesh& mesh, const DualGraph& graph,
                              const FaceGeometry& geometry) {
-    std::vector<int> labels(static_cast<std::size_t>(mesh.face_count()));
+    std::vector<int> labels(at(mesh.face_count()));
     for (int f = 0; f < mesh.face_count(); ++f) labels[f] = shape.nearest_label(geometry.centroid.col(f));
     merge_label_islands(graph, std::max(6, mesh.face_count() / 500), labels);
     remove_label_teeth(graph, labels);

@@ -87,8 +87,8 @@ class RemoteFaces {
     RemoteFaces(const TriMesh& mesh, std::uint64_t seed)
         : mesh_(mesh),
           seed_(seed),
-          is_sample_(static_cast<std::size_t>(mesh.face_count()), 0),
-          bound_(static_cast<std::size_t>((mesh.face_count() + run - 1) / run), infinity) {}
+          is_sample_(at(mesh.face_count()), 0),
+          bound_(at((mesh.face_count() + run - 1) / run), infinity) {}
     void leave_out(int face) { is_sample_[at(face)] = 1; }
     [[nodiscard]] int farthest(const std::vector<float>& distance);
 
@@ -115,8 +115,7 @@ void RemoteFaces::offer_run(std::size_t number, const std::vector<float>& distan
 
 int RemoteFaces::farthest(const std::vector<float>& distance) {
     FarthestFace farthest(seed_);
-    const auto likeliest =
-        static_cast<std::size_t>(std::max_element(bound_.begin(), bound_.end()) - bound_.begin());
+    const auto likeliest = at(std::max_element(bound_.begin(), bound_.end()) - bound_.begin());
     offer_run(likeliest, distance, farthest);
     for (std::size_t r = 0; r < bound_.size(); ++r) {
         const bool may_hold_it = farthest.face() < 0 || static_cast<double>(bound_[r]) >= farthest.score();
@@ -127,7 +126,7 @@ int RemoteFaces::farthest(const std::vector<float>& distance) {
 
 std::vector<int> farthest_point_samples(const TriMesh& mesh, const FaceGeometry& geometry,
                                         const SurfaceGraph& graph, int samples, std::uint64_t seed) {
-    std::vector<float> nearest(static_cast<std::size_t>(graph.node_count()), infinity);
+    std::vector<float> nearest(at(graph.node_count()), infinity);
     RemoteFaces faces(mesh, seed);
     std::vector<int> sample_face;
     int next = most_remote_face(geometry, seed);
@@ -152,7 +151,7 @@ struct Batch {
 Batch take_batch(const TriMesh& mesh, const FaceGeometry& geometry, const SurfaceGraph& graph, int start,
                  std::vector<int>& remaining) {
     Batch batch;
-    batch.distance.assign(static_cast<std::size_t>(graph.node_count()), infinity);
+    batch.distance.assign(at(graph.node_count()), infinity);
     batch.order = lower_distances(graph, sources_of_face(mesh, geometry, start), batch.distance);
     std::stable_sort(remaining.begin(), remaining.end(), [&](int f, int g) {
         const auto key = [&](int face) {
@@ -261,14 +260,6 @@ GeodesicTable geodesic_table(const TriMesh& mesh, const FaceGeometry& geometry, 
                table);
     table.sample_weight = voronoi_weights(table, geometry);
     return table;
-}
-
-Eigen::VectorXf geodesic_distances(const TriMesh& mesh, const DualGraph& graph, int source_vertex) {
-    const SurfaceGraph surface = surface_graph(mesh, graph);
-    std::vector<float> distance(static_cast<std::size_t>(surface.node_count()), infinity);
-    const std::array<PathSource, 1> source{{{source_vertex, 0.0F}}};
-    lower_distances(surface, source, distance);
-    return Eigen::Map<const Eigen::VectorXf>(distance.data(), mesh.vertex_count());
 }
 
 }  // namespace coseg

@@ -34,7 +34,4 @@ struct GeodesicTable {
 GeodesicTable geodesic_table(const TriMesh& mesh, const FaceGeometry& geometry, const DualGraph& graph,
                              int samples, std::uint64_t seed);
 
-/// Distance of every vertex from one vertex; infinity where no path leads (a vertex of no face).
-Eigen::VectorXf geodesic_distances(const TriMesh& mesh, const DualGraph& graph, int source_vertex);
-
 }  // namespace coseg

@@ -18,7 +18,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 std::span<const SurfaceArc> arcs_of(const SurfaceGraph& graph, int node) {
     const int begin = graph.offsets[at(node)];
     const int end = graph.offsets[at(node) + 1];
-    return {graph.arcs.data() + begin, static_cast<std::size_t>(end - begin)};
+    return {graph.arcs.data() + begin, at(end - begin)};
 }
 
 /// A radix heap (Ahuja, Mehlhorn, Orlin, Tarjan 1990), nearest first: what is pushed is never nearer than
@@ -112,7 +112,7 @@ std::vector<int> lower_distances(const SurfaceGraph& graph, std::span<const Path
 
 void path_distances(const SurfaceGraph& graph, std::span<const std::vector<PathSource>, path_lanes> sources,
                     std::span<const int> order, std::vector<PathLanes>& distance) {
-    distance.assign(static_cast<std::size_t>(graph.node_count()), PathLanes::Constant(infinity));
+    distance.assign(at(graph.node_count()), PathLanes::Constant(infinity));
     std::vector<unsigned char> is_pending(distance.size(), 0);
     for (int lane = 0; lane < path_lanes; ++lane) {
         for (const PathSource& source : sources[at(lane)]) {

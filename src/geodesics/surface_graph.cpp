@@ -132,7 +132,7 @@ void drop_repeated_arcs(SurfaceGraph& graph) {
 SurfaceGraph grouped_by_node(const ConnectionList& list, int vertices, int nodes) {
     SurfaceGraph graph;
     graph.vertex_count = vertices;
-    graph.offsets.assign(static_cast<std::size_t>(nodes) + 1, 0);
+    graph.offsets.assign(at(nodes) + 1, 0);
     for (const Connection& c : list.all()) ++graph.offsets[at(c.from) + 1];
     std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
     graph.arcs.resize(list.all().size());
@@ -146,7 +146,7 @@ SurfaceGraph grouped_by_node(const ConnectionList& list, int vertices, int nodes
 }  // namespace
 
 SurfaceGraph surface_graph(const TriMesh& mesh, const DualGraph& graph) {
-    ConnectionList list(static_cast<std::size_t>(mesh.face_count()) * 3 + graph.edges.size());
+    ConnectionList list(at(mesh.face_count()) * 3 + graph.edges.size());
     join_mesh_edges(mesh, list);
     join_shortcuts(mesh, graph, list);
     const int nodes = join_virtual_edges(mesh, graph, list);

@@ -45,41 +45,6 @@ Eigen::MatrixXd weight_per_bin(const std::vector<int>& bin_of_face, const std::v
     return histogram;
 }
 
-std::vector<double> gaussian_kernel(double deviation) {
-    const int reach = static_cast<int>(std::ceil(3.0 * deviation));
-    std::vector<double> kernel;
-    double total = 0.0;
-    for (int k = -reach; k <= reach; ++k) {
-        kernel.push_back(std::exp(-0.5 * (k / deviation) * (k / deviation)));
-        total += kernel.back();
-    }
-    for (double& share : kernel) share /= total;
-    return kernel;
-}
-
-/// The bin that `bin` falls on when the axis is folded back at both ends.
-int reflected(int bin, int bins) {
-    const int period = 2 * bins;
-    const int folded = ((bin % period) + period) % period;
-    return folded < bins ? folded : period - 1 - folded;
-}
-
-Eigen::MatrixXd smoothed(const Eigen::MatrixXd& histogram, double deviation) {
-    const std::vector<double> kernel = gaussian_kernel(deviation);
-    const int reach = static_cast<int>(kernel.size() / 2);
-    const int bins = static_cast<int>(histogram.rows());
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(histogram.rows(), histogram.cols());
-    for (Eigen::Index p = 0; p < histogram.cols(); ++p) {
-        for (int b = 0; b < bins; ++b) {
-            if (histogram(b, p) == 0.0) continue;
-            for (int k = -reach; k <= reach; ++k) {
-                result(reflected(b + k, bins), p) += kernel[at(k + reach)] * histogram(b, p);
-            }
-        }
-    }
-    return result;
-}
-
 void scale_columns(Eigen::MatrixXd& histogram, HistogramScaling scaling) {
     if (scaling == HistogramScaling::counts) return;
     for (Eigen::Index p = 0; p < histogram.cols(); ++p) {
@@ -111,11 +76,10 @@ std::vector<int> bin_of_face(const Eigen::VectorXd& values, const FeatureRange& 
 
 Eigen::MatrixXd patch_histograms(const std::vector<int>& bin_of_face, const std::vector<int>& patch_of_face,
                                  int patches, int bins, const Eigen::VectorXd& weights,
-                                 const HistogramOptions& options) {
+                                 HistogramScaling scaling) {
     check_faces(bin_of_face, patch_of_face, patches, bins, weights);
     Eigen::MatrixXd histogram = weight_per_bin(bin_of_face, patch_of_face, patches, bins, weights);
-    if (options.smoothing_bins > 0.0) histogram = smoothed(histogram, options.smoothing_bins);
-    scale_columns(histogram, options.scaling);
+    scale_columns(histogram, scaling);
     return histogram;
 }
 

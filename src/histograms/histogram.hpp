@@ -18,14 +18,6 @@ enum class HistogramScaling {
                   ///< coefficient
 };
 
-struct HistogramOptions {
-    HistogramScaling scaling = HistogramScaling::square_root;
-    /// Standard deviation, in bins, of a Gaussian that spreads each column before scaling (0: none; mass that
-    /// would leave at an end is reflected). For ordered bins only: neighbouring shape words have nothing in
-    /// common.
-    double smoothing_bins = 0.0;
-};
-
 /// bins x patches, column major, entries >= 0; column p is the weight of patch p's faces per bin, scaled. Every patch
 /// with a face has a nonzero column: where all its weights are 0, its faces count alike; a patch without faces has a
 /// zero column.
@@ -34,6 +26,6 @@ struct HistogramOptions {
 /// Throws Error(internal) if sizes differ or a bin or patch is out of range.
 Eigen::MatrixXd patch_histograms(const std::vector<int>& bin_of_face, const std::vector<int>& patch_of_face,
                                  int patches, int bins, const Eigen::VectorXd& weights,
-                                 const HistogramOptions& options = {});
+                                 HistogramScaling scaling = HistogramScaling::square_root);
 
 }  // namespace coseg

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/mesh/face_geometry.hpp"
 
 namespace coseg {
@@ -50,7 +51,7 @@ ClosestPointTree::ClosestPointTree(const TriMesh& mesh) : mesh_(mesh) {
     FaceGeometry geometry = face_geometry(mesh);
     normals_ = std::move(geometry.normal);
     centroids_ = std::move(geometry.centroid);
-    order_.resize(static_cast<std::size_t>(mesh.face_count()));
+    order_.resize(at(mesh.face_count()));
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.reserve(order_.size());
     nodes_.emplace_back();
@@ -132,7 +133,7 @@ ClosestPoint ClosestPointTree::nearest(const Vector3d& point, const Vector3d& no
 std::vector<int> nearest_faces(const TriMesh& of, const TriMesh& on) {
     const ClosestPointTree tree(on);
     const FaceGeometry geometry = face_geometry(of);
-    std::vector<int> faces(static_cast<std::size_t>(of.face_count()));
+    std::vector<int> faces(at(of.face_count()));
     for (int f = 0; f < of.face_count(); ++f) {
         faces[f] = tree.nearest(geometry.centroid.col(f), geometry.normal.col(f)).face;
     }

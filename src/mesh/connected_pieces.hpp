@@ -14,8 +14,4 @@ enum class VirtualEdges { connect, ignored };
 std::vector<int> connected_pieces(const DualGraph& graph, const std::vector<int>& label_of_face,
                                   VirtualEdges virtual_edges = VirtualEdges::connect);
 
-/// The connected pieces of the common refinement of several labellings: faces of one piece agree in all of
-/// them.
-std::vector<int> intersection_pieces(const DualGraph& graph, const std::vector<std::vector<int>>& labellings);
-
 }  // namespace coseg

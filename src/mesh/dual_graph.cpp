@@ -79,7 +79,7 @@ void join_components(DualGraph& graph, const FaceGeometry& geometry) {
 }  // namespace
 
 void index_incidence(DualGraph& graph) {
-    graph.offsets.assign(static_cast<std::size_t>(graph.face_count) + 1, 0);
+    graph.offsets.assign(at(graph.face_count) + 1, 0);
     for (const DualEdge& e : graph.edges) {
         ++graph.offsets[at(e.face_a) + 1];
         ++graph.offsets[at(e.face_b) + 1];
@@ -104,7 +104,7 @@ DualGraph dual_graph(const TriMesh& mesh, const FaceGeometry& geometry) {
 }
 
 std::vector<int> face_components(const DualGraph& graph) {
-    const std::vector<int> one_label(static_cast<std::size_t>(graph.face_count), 0);
+    const std::vector<int> one_label(at(graph.face_count), 0);
     return connected_pieces(graph, one_label, VirtualEdges::ignored);
 }
 

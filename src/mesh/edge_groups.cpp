@@ -9,17 +9,17 @@
 namespace coseg {
 
 EdgeGroups group_edges(const std::vector<int>& from, const std::vector<int>& to, int vertices) {
-    std::vector<int> begin(static_cast<std::size_t>(vertices) + 1, 0);
+    std::vector<int> begin(at(vertices) + 1, 0);
     for (std::size_t h = 0; h < from.size(); ++h) {
         if (from[h] != to[h]) ++begin[at(std::min(from[h], to[h])) + 1];
     }
     for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
     // (higher vertex, half-edge).
-    std::vector<std::pair<int, int>> by_lower(static_cast<std::size_t>(begin.back()));
+    std::vector<std::pair<int, int>> by_lower(at(begin.back()));
     std::vector<int> next(begin.begin(), begin.end() - 1);
     for (std::size_t h = 0; h < from.size(); ++h) {
         if (from[h] == to[h]) continue;
-        const auto lower = static_cast<std::size_t>(std::min(from[h], to[h]));
+        const auto lower = at(std::min(from[h], to[h]));
         by_lower[at(next[lower]++)] = {std::max(from[h], to[h]), static_cast<int>(h)};
     }
     EdgeGroups groups;

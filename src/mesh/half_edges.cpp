@@ -17,7 +17,7 @@ HalfEdge half_edge(const TriMesh& mesh, int face, int k) {
 
 /// Per vertex v where its half-edges, those with low == v, begin, and where the last one's end.
 std::vector<int> starts_of_vertices(const TriMesh& mesh) {
-    std::vector<int> starts(static_cast<std::size_t>(mesh.vertex_count()) + 1, 0);
+    std::vector<int> starts(at(mesh.vertex_count()) + 1, 0);
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) ++starts[at(half_edge(mesh, f, k).low) + 1];
     }
@@ -28,7 +28,7 @@ std::vector<int> starts_of_vertices(const TriMesh& mesh) {
 }  // namespace
 
 std::vector<HalfEdge> sorted_half_edges(const TriMesh& mesh) {
-    std::vector<HalfEdge> half_edges(static_cast<std::size_t>(mesh.face_count()) * 3);
+    std::vector<HalfEdge> half_edges(at(mesh.face_count()) * 3);
     const std::vector<int> starts = starts_of_vertices(mesh);
     std::vector<int> next(starts.begin(), starts.end() - 1);
     for (int f = 0; f < mesh.face_count(); ++f) {

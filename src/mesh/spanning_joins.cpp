@@ -59,7 +59,7 @@ int build_node(const Eigen::Matrix3Xd& points, PointTree& tree, int begin, int e
 
 PointTree build_tree(const Eigen::Matrix3Xd& points) {
     PointTree tree;
-    tree.order.resize(static_cast<std::size_t>(points.cols()));
+    tree.order.resize(at(points.cols()));
     std::iota(tree.order.begin(), tree.order.end(), 0);
     build_node(points, tree, 0, static_cast<int>(points.cols()));
     tree.points.resize(3, points.cols());
@@ -148,7 +148,7 @@ class ForeignSearch {
 /// group; groups only grow, so it stays valid from round to round.
 std::vector<Candidate> best_candidates(const PointTree& tree, const std::vector<int>& group, int groups,
                                        std::vector<double>& nearest) {
-    std::vector<Candidate> best(static_cast<std::size_t>(groups));
+    std::vector<Candidate> best(at(groups));
     ForeignSearch search(tree, group);
     for (std::size_t i = 0; i < group.size(); ++i) {
         Candidate& candidate = best[at(group[i])];
@@ -188,7 +188,7 @@ std::vector<PointJoin> spanning_joins(const Eigen::Matrix3Xd& points, const std:
     std::vector<PointJoin> joins;
     if (groups <= 1) return joins;
     PointTree tree = build_tree(points);
-    std::vector<int> parent(static_cast<std::size_t>(groups));
+    std::vector<int> parent(at(groups));
     std::iota(parent.begin(), parent.end(), 0);
     std::vector<int> merged(group.size());
     std::vector<double> nearest(group.size(), 0.0);

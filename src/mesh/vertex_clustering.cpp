@@ -61,7 +61,7 @@ ClusteredMesh on_grid(const TriMesh& mesh, int cells) {
 
 ClusteredMesh clustered(const TriMesh& mesh, int most_faces) {
     if (mesh.face_count() <= most_faces) {
-        ClusteredMesh same{mesh, std::vector<int>(static_cast<std::size_t>(mesh.face_count()))};
+        ClusteredMesh same{mesh, std::vector<int>(at(mesh.face_count()))};
         std::iota(same.triangle.begin(), same.triangle.end(), 0);
         return same;
     }

@@ -76,8 +76,7 @@ double mean_distance(const SurfaceGraph& surface, const std::vector<DualEdge>& f
                      const std::vector<DualEdge>& to) {
     std::vector<PathSource> sources;
     for (const DualEdge& e : to) sources.insert(sources.end(), {{e.vertex_a, 0.0F}, {e.vertex_b, 0.0F}});
-    std::vector<float> distance(static_cast<std::size_t>(surface.node_count()),
-                                std::numeric_limits<float>::infinity());
+    std::vector<float> distance(at(surface.node_count()), std::numeric_limits<float>::infinity());
     lower_distances(surface, sources, distance);
     double sum = 0.0;
     double length = 0.0;
@@ -113,7 +112,7 @@ std::optional<double> cut_discrepancy(const TriMesh& mesh, const FaceGeometry& g
 SegmentationAgreement segmentation_agreement(const TriMesh& mesh, const FaceGeometry& geometry,
                                              const DualGraph& graph, const std::vector<int>& reference,
                                              const std::vector<int>& answer) {
-    const auto faces = static_cast<std::size_t>(mesh.face_count());
+    const auto faces = at(mesh.face_count());
     if (reference.size() != faces || answer.size() != faces)
         throw Error(ExitCode::internal,
                     "a segmentation to compare has not one number for each face of the mesh");

@@ -1,8 +1,9 @@
 #include "src/parallel/comm.hpp"
 
-#include <cmath>
-#include <limits>
+#include <numeric>
 #include <utility>
+
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -62,25 +63,37 @@ std::optional<Failure> run_and_catch(const std::function<void()>& step) {
     return std::nullopt;
 }
 
+/// Where the values of each rank begin among those of all, and how many there are in all.
+std::vector<std::int64_t> gathered_offsets(const Comm& comm, std::size_t local) {
+    const auto count = static_cast<std::int64_t>(local);
+    std::vector<std::int64_t> offsets(at(comm.size()) + 1, 0);
+    MPI_Allgather(&count, 1, MPI_INT64_T, offsets.data() + 1, 1, MPI_INT64_T, comm.raw());
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    return offsets;
+}
+
 template <class T>
-std::vector<T> all_gather_of(const Comm& comm, std::span<const T> local, MPI_Datatype type) {
-    if (local.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-        throw Error(ExitCode::internal, "a rank gathers more than 2^31 values at once");
+std::vector<T> all_gather_of(const Comm& comm, std::span<const T> local, MPI_Datatype type,
+                             std::int64_t longest = longest_message) {
+    const std::vector<std::int64_t> offsets = gathered_offsets(comm, local.size());
+    std::vector<T> all(at(offsets.back()));
+    if (offsets.back() <= longest) {
+        const std::vector<int> begins(offsets.begin(), offsets.end() - 1);
+        std::vector<int> counts;
+        for (std::size_t r = 0; r < begins.size(); ++r)
+            counts.push_back(static_cast<int>(offsets[r + 1] - offsets[r]));
+        MPI_Allgatherv(local.data(), static_cast<int>(local.size()), type, all.data(), counts.data(),
+                       begins.data(), type, comm.raw());
+        return all;
     }
-    const int count = static_cast<int>(local.size());
-    std::vector<int> counts(static_cast<std::size_t>(comm.size()));
-    MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm.raw());
-    std::vector<int> offsets(counts.size());
-    std::int64_t total = 0;
-    for (std::size_t r = 0; r < counts.size(); ++r) {
-        offsets[r] = static_cast<int>(total);
-        total += counts[r];
-        if (total > std::numeric_limits<int>::max()) {
-            throw AgreedError(ExitCode::internal, "more than 2^31 values gathered at once; use fewer shapes");
-        }
+    std::copy(local.begin(), local.end(), all.begin() + offsets[at(comm.rank())]);
+    for (int rank = 0; rank < comm.size(); ++rank) {
+        T* values = all.data() + offsets[at(rank)];
+        in_messages(
+            offsets[at(rank) + 1] - offsets[at(rank)],
+            [&](std::int64_t first, int count) { MPI_Bcast(values + first, count, type, rank, comm.raw()); },
+            longest);
     }
-    std::vector<T> all(static_cast<std::size_t>(total));
-    MPI_Allgatherv(local.data(), count, type, all.data(), counts.data(), offsets.data(), type, comm.raw());
     return all;
 }
 
@@ -100,23 +113,9 @@ void agree(const Comm& comm, const std::function<void()>& step) {
         header[1] = static_cast<int>(sentence.size());
     }
     MPI_Bcast(header, 2, MPI_INT, first, comm.raw());
-    sentence.resize(static_cast<std::size_t>(header[1]));
+    sentence.resize(at(header[1]));
     MPI_Bcast(sentence.data(), header[1], MPI_CHAR, first, comm.raw());
     throw AgreedError(static_cast<ExitCode>(header[0]), sentence);
-}
-
-FixedPointSum::FixedPointSum(std::size_t size, double bound)
-    : scale_(std::ldexp(1.0, 40 - (bound > 0.0 ? std::ilogb(bound) + 1 : 0))), ticks_(size, 0) {}
-
-void FixedPointSum::add(std::size_t index, double value) { ticks_[index] += std::llround(value * scale_); }
-
-std::vector<double> FixedPointSum::all_sum(const Comm& comm) const {
-    std::vector<std::int64_t> total(ticks_.size());
-    MPI_Allreduce(ticks_.data(), total.data(), static_cast<int>(ticks_.size()), MPI_INT64_T, MPI_SUM,
-                  comm.raw());
-    std::vector<double> sums(total.size());
-    for (std::size_t i = 0; i < total.size(); ++i) sums[i] = static_cast<double>(total[i]) / scale_;
-    return sums;
 }
 
 std::vector<double> all_gather(const Comm& comm, std::span<const double> local) {
@@ -127,8 +126,9 @@ std::vector<int> all_gather(const Comm& comm, std::span<const int> local) {
     return all_gather_of<int>(comm, local, MPI_INT);
 }
 
-std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local) {
-    return all_gather_of<std::int64_t>(comm, local, MPI_INT64_T);
+std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local,
+                                     std::int64_t longest) {
+    return all_gather_of<std::int64_t>(comm, local, MPI_INT64_T, longest);
 }
 
 namespace {
@@ -165,10 +165,20 @@ void broadcast_texts(const Comm& comm, std::vector<std::string>& texts) {
     std::string buffer = comm.is_root() ? joined(texts) : std::string();
     std::int64_t size = static_cast<std::int64_t>(buffer.size());
     MPI_Bcast(&size, 1, MPI_INT64_T, 0, comm.raw());
-    buffer.resize(static_cast<std::size_t>(size));
-    MPI_Bcast(buffer.data(), static_cast<int>(size), MPI_CHAR, 0, comm.raw());
+    buffer.resize(at(size));
+    in_messages(size, [&](std::int64_t first, int count) {
+        MPI_Bcast(buffer.data() + first, count, MPI_CHAR, 0, comm.raw());
+    });
     texts = parted(buffer);
 }
+
+bool any_rank(const Comm& comm, bool local) {
+    int result = local ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &result, 1, MPI_INT, MPI_MAX, comm.raw());
+    return result != 0;
+}
+
+bool every_rank(const Comm& comm, bool local) { return !any_rank(comm, !local); }
 
 double all_max(const Comm& comm, double local) {
     double result = 0.0;

@@ -3,8 +3,10 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,31 +47,31 @@ class Comm {
 /// lowest failing rank. `step` must not communicate. Collective.
 void agree(const Comm& comm, const std::function<void()>& step);
 
-/// Sums of doubles that do not depend on the number of ranks or on the order of summation: each addend is rounded
-/// to a multiple of 2^-40 times the power of two above `bound` and added as an integer.
-/// |each addend| <= bound must hold, and at most 2^20 addends may be summed in all. Collective use: see all_sum.
-class FixedPointSum {
-  public:
-    FixedPointSum(std::size_t size, double bound);
-    void add(std::size_t index, double value);
-    /// The sums over all ranks, on all ranks. Collective; every rank must have been given the same size and bound.
-    [[nodiscard]] std::vector<double> all_sum(const Comm& comm) const;
+/// MPI 3 counts the values of a message in int; what is longer goes in several messages.
+inline constexpr std::int64_t longest_message = std::numeric_limits<int>::max();
 
-  private:
-    double scale_;
-    std::vector<std::int64_t> ticks_;
-};
+/// Calls send(first, count) for consecutive runs of at most `longest` of `total` values.
+template <class Send>
+void in_messages(std::int64_t total, Send&& send, std::int64_t longest = longest_message) {
+    for (std::int64_t first = 0; first < total; first += longest)
+        send(first, static_cast<int>(std::min(longest, total - first)));
+}
 
-/// Concatenation over ranks, in the order of ranks, on all ranks. Collective.
+/// Concatenation over ranks, in the order of ranks, on all ranks; of any length. Collective.
 std::vector<double> all_gather(const Comm& comm, std::span<const double> local);
 std::vector<int> all_gather(const Comm& comm, std::span<const int> local);
-std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local);
+std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local,
+                                     std::int64_t longest = longest_message);
 
 /// Texts of all ranks, in the order of ranks, on all ranks. Collective.
 std::vector<std::string> all_gather_texts(const Comm& comm, const std::vector<std::string>& local);
 
 /// The root's texts on all ranks. Collective.
 void broadcast_texts(const Comm& comm, std::vector<std::string>& texts);
+
+/// Whether it is true on any rank, and whether on every rank. Collective.
+bool any_rank(const Comm& comm, bool local);
+bool every_rank(const Comm& comm, bool local);
 
 double all_max(const Comm& comm, double local);
 double all_min(const Comm& comm, double local);

@@ -30,7 +30,7 @@ int node_number(const Comm& comm) {
     int place = 0;
     MPI_Comm_size(sharing, &size);
     MPI_Comm_rank(sharing, &place);
-    std::vector<int> ranks(static_cast<std::size_t>(size));
+    std::vector<int> ranks(at(size));
     const int own = comm.rank();
     MPI_Allgather(&own, 1, MPI_INT, ranks.data(), 1, MPI_INT, sharing);
     MPI_Comm_free(&sharing);

@@ -39,8 +39,7 @@ NodeSharedMemory::NodeSharedMemory(NodeRanks ranks, std::size_t bytes, std::uint
         // ranks of Open MPI 4.1 wait for ever where the first cannot make a window.
         const auto wanted = std::uint64_t{bytes} * static_cast<std::uint64_t>(ranks_.nodes_on_machine());
         const bool fits = !ranks_.here().is_root() || room >= wanted + spare_bytes;
-        fell_back_ = all_min(ranks_.all(), fits ? 1.0 : 0.0) == 0.0 ||
-                     all_min(ranks_.all(), open_window(bytes) ? 1.0 : 0.0) == 0.0;
+        fell_back_ = any_rank(ranks_.all(), !fits) || any_rank(ranks_.all(), !open_window(bytes));
         if (fell_back_) ranks_ = ranks_.apart();
     }
     agree(ranks_.all(), [&] {

@@ -13,8 +13,7 @@ namespace {
 constexpr int undecided = -1;
 
 int checked_part(const std::vector<std::vector<int>>& part_of_patch, std::size_t o, int patch, int parts) {
-    const bool has_part =
-        o < part_of_patch.size() && patch >= 0 && static_cast<std::size_t>(patch) < part_of_patch[o].size();
+    const bool has_part = o < part_of_patch.size() && patch >= 0 && at(patch) < part_of_patch[o].size();
     const int part = has_part ? part_of_patch[o][at(patch)] : undecided;
     if (part < 0 || part >= parts) {
         throw Error(ExitCode::internal, "patch " + std::to_string(patch) + " of over-segmentation " +
@@ -44,7 +43,7 @@ struct WaitingFace {
 int part_by_neighbors(const DualGraph& graph, const std::vector<int>& label, const WaitingFace& waiting) {
     std::vector<double> shared(waiting.candidates.size(),
                                -1.0);  // -1: no such neighbour; 0: an edge without length
-    const auto f = static_cast<std::size_t>(waiting.face);
+    const auto f = at(waiting.face);
     for (int k = graph.offsets[f]; k < graph.offsets[f + 1]; ++k) {
         const int e = graph.incident[at(k)];
         const int part = label[at(graph.other_face(e, waiting.face))];
@@ -79,11 +78,11 @@ std::vector<int> vote_face_labels(const std::vector<std::vector<int>>& oversegme
                                   const DualGraph& graph) {
     if (oversegmentations.empty())
         throw Error(ExitCode::internal, "a vote needs at least one over-segmentation");
-    std::vector<int> label(static_cast<std::size_t>(graph.face_count), undecided);
+    std::vector<int> label(at(graph.face_count), undecided);
     std::vector<WaitingFace> waiting;
     std::vector<int> votes;
     for (std::size_t f = 0; f < label.size(); ++f) {
-        votes.assign(static_cast<std::size_t>(parts), 0);
+        votes.assign(at(parts), 0);
         for (std::size_t o = 0; o < oversegmentations.size(); ++o) {
             ++votes[at(checked_part(part_of_patch, o, oversegmentations[o][f], parts))];
         }

@@ -22,7 +22,7 @@ OverlappingSubsets overlapping_subsets(const std::vector<std::string>& names, in
     std::sort(plan.common.begin(), plan.common.end());
     const int own = size - common;
     const int count = meshes <= size ? 1 : (meshes - common + own - 1) / own;
-    plan.subsets.assign(static_cast<std::size_t>(count), plan.common);
+    plan.subsets.assign(at(count), plan.common);
     for (int k = common; k < meshes; ++k)
         plan.subsets[at((k - common) % count)].push_back(dealt[at(k)].second);
     for (std::vector<int>& subset : plan.subsets) std::sort(subset.begin(), subset.end());

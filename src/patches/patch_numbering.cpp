@@ -14,7 +14,7 @@ PatchNumbering::PatchNumbering(int oversegmentations, const std::vector<int>& pa
 }
 
 std::vector<int> PatchNumbering::mesh_of() const {
-    std::vector<int> mesh(static_cast<std::size_t>(patch_count()));
+    std::vector<int> mesh(at(patch_count()));
     for (int m = 0; m < mesh_count_; ++m) {
         for (int i = first(m, 0); i < first(m, 0) + count(m); ++i) mesh[at(i)] = m;
     }

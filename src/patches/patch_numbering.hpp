@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 class PatchNumbering {
@@ -15,7 +17,6 @@ class PatchNumbering {
     /// patches[m * oversegmentations + s]: patches in over-segmentation s of mesh m.
     PatchNumbering(int oversegmentations, const std::vector<int>& patches);
 
-    [[nodiscard]] int mesh_count() const noexcept { return mesh_count_; }
     [[nodiscard]] int oversegmentations() const noexcept { return oversegmentations_; }
     [[nodiscard]] int patch_count() const noexcept { return first_.back(); }
 
@@ -30,10 +31,7 @@ class PatchNumbering {
     [[nodiscard]] std::vector<int> mesh_of() const;
 
   private:
-    [[nodiscard]] std::size_t index(int m, int s) const {
-        return static_cast<std::size_t>(m) * static_cast<std::size_t>(oversegmentations_) +
-               static_cast<std::size_t>(s);
-    }
+    [[nodiscard]] std::size_t index(int m, int s) const { return at(m) * at(oversegmentations_) + at(s); }
     int oversegmentations_;
     int mesh_count_;
     std::vector<int> first_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -42,9 +44,7 @@ double srgb_of_linear(double value) {
 }
 
 Image::Image(int columns, int rows, const Color& fill)
-    : width(columns),
-      height(rows),
-      bytes(3 * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {
+    : width(columns), height(rows), bytes(3 * at(columns) * at(rows)) {
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = fill[i % 3];
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 using Color = std::array<std::uint8_t, 3>;  ///< red, green, blue, as sRGB
@@ -18,13 +20,9 @@ struct Image {
     Image() = default;
     Image(int columns, int rows, const Color& fill);
 
-    [[nodiscard]] std::uint8_t* pixel(int x, int y) {
-        return &bytes[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                           static_cast<std::size_t>(x))];
-    }
+    [[nodiscard]] std::uint8_t* pixel(int x, int y) { return &bytes[3 * (at(y) * at(width) + at(x))]; }
     [[nodiscard]] const std::uint8_t* pixel(int x, int y) const {
-        return &bytes[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                           static_cast<std::size_t>(x))];
+        return &bytes[3 * (at(y) * at(width) + at(x))];
     }
 };
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 
 namespace {
@@ -180,7 +182,7 @@ const Glyph& glyph_of(char letter) {
     if (letter == ' ') return space;
     const int index = letter - 33;
     const bool is_known = index >= 0 && index < static_cast<int>(letters.size());
-    return glyphs[is_known ? static_cast<std::size_t>(index) : letters.size()];
+    return glyphs[is_known ? at(index) : letters.size()];
 }
 
 double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -31,7 +31,7 @@ void scale_into_unit_ball(TriMesh& mesh) {
 }
 
 std::vector<std::vector<int>> triangles_of_vertices(const TriMesh& mesh) {
-    std::vector<std::vector<int>> triangles(static_cast<std::size_t>(mesh.vertex_count()));
+    std::vector<std::vector<int>> triangles(at(mesh.vertex_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) triangles[at(mesh.faces(k, f))].push_back(f);
     }
@@ -59,7 +59,7 @@ PictureMesh picture_mesh(const PolygonMesh& mesh, const std::vector<Color>& colo
     for (int f = 0; f < mesh.face_count(); ++f) {
         std::vector<int> vertices;
         std::vector<Eigen::Vector3d> corners;
-        const auto face = static_cast<std::size_t>(f);
+        const auto face = at(f);
         for (int k = mesh.offsets[face]; k < mesh.offsets[face + 1]; ++k) {
             vertices.push_back(stand_for[at(mesh.corners[at(k)])]);
             corners.push_back(mesh.vertices[at(vertices.back())]);

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 
+#include "src/mesh/ray_scene.hpp"
 #include "src/mesh/tri_mesh.hpp"
 
 namespace coseg {
@@ -23,9 +23,6 @@ class PictureRays {
     };
 
     explicit PictureRays(const TriMesh& mesh);
-    ~PictureRays();
-    PictureRays(const PictureRays&) = delete;
-    PictureRays& operator=(const PictureRays&) = delete;
 
     /// The nearest triangle along each of 16 rays from one eye, whichever side of it is met.
     std::array<Hit, packet> look(const Eigen::Vector3f& eye,
@@ -36,8 +33,7 @@ class PictureRays {
                 float reach) const;
 
   private:
-    struct Scene;
-    std::unique_ptr<Scene> scene_;
+    RayScene scene_;
 };
 
 }  // namespace coseg

@@ -86,7 +86,7 @@ class Painter {
           lamp_((-0.55F * camera_.right + 0.75F * camera_.up + 0.8F * camera_.towards).normalized()),
           rays_(picture.mesh),
           normals_(corner_normals(picture.mesh, crease_degrees)),
-          pixels_(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_)) {
+          pixels_(at(size_) * at(size_)) {
         for (int i = 0; i < 256; ++i) light_of_byte_[at(i)] = static_cast<float>(linear_of_srgb(i / 255.0));
     }
 
@@ -130,7 +130,7 @@ void Painter::look() {
         }
         const auto hits = rays_.look(camera_.eye, directions);
         for (int i = 0; i < packet; ++i) {
-            const auto k = static_cast<std::size_t>(i);
+            const auto k = at(i);
             const int number = first + i / samples;
             if (number < count && hits[k].triangle >= 0) shade(pixels_[at(number)], hits[k], directions[k]);
         }
@@ -271,7 +271,7 @@ Image Painter::develop(const Color& background) {
             const Pixel& here = pixel(x, y);
             if (here.covered <= 0.0F) continue;
             for (int k = 0; k < 3; ++k) {
-                const auto c = static_cast<std::size_t>(k);
+                const auto c = at(k);
                 const float light = here.sky[k] * softened(here.open_sky) + here.lamp[k] * here.open_lamp +
                                     (1.0F - here.covered) * light_of_byte_[background[c]];
                 const double value = srgb_of_linear(std::clamp(static_cast<double>(light), 0.0, 1.0));

@@ -64,4 +64,21 @@ inline std::vector<std::filesystem::path> off_files(const std::filesystem::path&
     return files;
 }
 
+struct NamedMesh {
+    std::string name;
+    TriMesh mesh;
+};
+
+/// Every ninth mesh of three sets that differ much; none without the data folder.
+inline std::vector<NamedMesh> various_meshes() {
+    std::vector<NamedMesh> meshes;
+    if (data_folder().empty()) return meshes;
+    for (const char* set : {"psb_airplane", "coseg_chairs", "humans_adobe"}) {
+        const auto files = off_files(data_folder() / set);
+        for (std::size_t i = 0; i < files.size(); i += 9)
+            meshes.push_back({files[i].string(), read_off(files[i])});
+    }
+    return meshes;
+}
+
 }  // namespace coseg::test

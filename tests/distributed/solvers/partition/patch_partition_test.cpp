@@ -7,7 +7,6 @@
 #include <string>
 
 #include "solvers/affinity/affinity.hpp"
-#include "solvers/partition/best_matches.hpp"
 #include "solvers/petsc/petsc_handle.hpp"
 #include "solvers/petsc/petsc_session.hpp"
 #include "solvers/subspace/feature_strength.hpp"
@@ -357,37 +356,6 @@ TEST(FeatureStrength, HasTheSameBitsOnAnyNumberOfRanks) {
     EXPECT_EQ(shared.inside, alone.inside);
     EXPECT_EQ(shared.blocks, alone.blocks);
     EXPECT_EQ(shared.pairs_by_features, alone.pairs_by_features);
-}
-
-TEST(BestMatches, AreTheBestOfEachOtherMeshAndTheSameOnAnyNumberOfRanks) {
-    const Comm comm(MPI_COMM_WORLD);
-    const Comm self(MPI_COMM_SELF);
-    constexpr int patches = 90;
-    std::vector<Eigen::MatrixXd> features(2, Eigen::MatrixXd(7, patches));
-    SeededStream random(6);
-    for (Eigen::MatrixXd& x : features) {
-        for (Eigen::Index k = 0; k < x.size(); ++k)
-            x.data()[k] = random.uniform() < 0.5 ? 0.0 : random.uniform();
-    }
-    features[1].rightCols(20) *= 0.0;
-    features[0].rightCols(20) *= 0.0;  // the last mesh resembles nothing
-    std::vector<int> mesh_of;
-    for (int i = 0; i < patches; ++i) mesh_of.push_back(i < 15 ? 0 : i < 70 ? 1 : 2);
-    const SparseCoefficients alone = best_matches(self, features, mesh_of);
-    const Eigen::MatrixXd similarity =
-        features[0].transpose() * features[0] + features[1].transpose() * features[1];
-    for (int j = 0; j < patches; ++j) {
-        const auto begin = static_cast<std::size_t>(alone.offsets[static_cast<std::size_t>(j)]);
-        ASSERT_EQ(alone.offsets[static_cast<std::size_t>(j) + 1] - alone.offsets[static_cast<std::size_t>(j)],
-                  j < 70 ? 1 : 0);
-        if (j >= 70) continue;
-        const auto others = j < 15 ? similarity.col(j).segment(15, 55) : similarity.col(j).segment(0, 15);
-        EXPECT_NEAR(alone.values[begin], others.maxCoeff(), 1e-14);
-        EXPECT_NEAR(similarity(alone.rows[begin], j), others.maxCoeff(), 1e-14);
-    }
-    const SparseCoefficients mine = best_matches(comm, features, mesh_of);
-    EXPECT_EQ(all_gather(comm, std::span<const int>(mine.rows)), alone.rows);
-    EXPECT_EQ(all_gather(comm, std::span<const double>(mine.values)), alone.values);
 }
 
 TEST(PetscSession, ReportsOptionsThatNobodyAskedFor) {

@@ -2,11 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "src/base/seeded_random.hpp"
-#include "src/parallel/block_range.hpp"
-
 namespace coseg {
 namespace {
 
@@ -29,30 +24,45 @@ TEST(Agree, PassesWhereNoRankFails) {
     EXPECT_NO_THROW(agree(comm, [] {}));
 }
 
-TEST(FixedPointSum, SameBitsOnAnyNumberOfRanks) {
-    const Comm comm(MPI_COMM_WORLD);
-    constexpr int n = 1000;
-    const auto addend = [](int i) { return normal_of(hash_words({7, static_cast<std::uint64_t>(i)})); };
-    FixedPointSum alone(1, 8.0);
-    FixedPointSum shared(1, 8.0);
-    double plain = 0.0;
-    for (int i = 0; i < n; ++i) {
-        alone.add(0, addend(i));
-        plain += addend(i);
-    }
-    const BlockRange mine = block_range(n, comm.size(), comm.rank());
-    for (auto i = mine.end; i-- > mine.begin;) shared.add(0, addend(static_cast<int>(i)));
-    const Comm self(MPI_COMM_SELF);
-    EXPECT_EQ(shared.all_sum(comm)[0], alone.all_sum(self)[0]);
-    EXPECT_NEAR(shared.all_sum(comm)[0], plain, n * std::ldexp(1.0, 4 - 40));
-}
-
 TEST(AllGather, ConcatenatesInRankOrder) {
     const Comm comm(MPI_COMM_WORLD);
     const std::vector<int> mine(static_cast<std::size_t>(comm.rank()), comm.rank());
     std::vector<int> expected;
     for (int r = 0; r < comm.size(); ++r) expected.insert(expected.end(), static_cast<std::size_t>(r), r);
     EXPECT_EQ(all_gather(comm, std::span<const int>(mine)), expected);
+}
+
+TEST(AllGather, GivesTheSameInMessagesOfAnyLength) {
+    const Comm comm(MPI_COMM_WORLD);
+    std::vector<std::int64_t> mine;
+    for (int k = 0; k < 5 + 3 * comm.rank(); ++k) mine.push_back(100 * comm.rank() + k);
+    const std::span<const std::int64_t> local(mine);
+    const std::vector<std::int64_t> whole = all_gather(comm, local);
+    EXPECT_EQ(std::ssize(whole), 5 * comm.size() + 3 * comm.size() * (comm.size() - 1) / 2);
+    for (const std::int64_t longest : {1, 3, 5, 1000}) EXPECT_EQ(all_gather(comm, local, longest), whole);
+}
+
+TEST(AnyRank, HearsOneRankAmongAll) {
+    const Comm comm(MPI_COMM_WORLD);
+    const bool last = comm.rank() == comm.size() - 1;
+    EXPECT_TRUE(any_rank(comm, last));
+    EXPECT_FALSE(any_rank(comm, false));
+    EXPECT_TRUE(every_rank(comm, true));
+    EXPECT_EQ(every_rank(comm, last), comm.size() == 1);
+}
+
+TEST(InMessages, CoverValuesBeyondTheRangeOfInt) {
+    constexpr std::int64_t total = 5'000'000'000;
+    std::int64_t next = 0;
+    int messages = 0;
+    in_messages(total, [&](std::int64_t first, int count) {
+        EXPECT_EQ(first, next);
+        next = first + count;
+        ++messages;
+    });
+    EXPECT_EQ(next, total);
+    EXPECT_EQ(messages, 3);
+    in_messages(0, [](std::int64_t, int) { FAIL() << "nothing is sent"; });
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ struct Product {
                                               c % group_columns)];
     }
     void compute() {
-        score_pairs(rows.data(), duals.data(), depth, groups, prices.data(), errors.data(), scores.data(),
-                    squares.data());
+        score_pairs({rows.data(), prices.data()}, {duals.data(), errors.data(), groups}, depth,
+                    {scores.data(), squares.data()});
     }
 };
 

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "src/base/error.hpp"
-#include "src/base/seeded_random.hpp"
 #include "src/mesh/connected_pieces.hpp"
 #include "src/mesh/dihedral_cost.hpp"
 #include "tests/support/generated_shapes.hpp"
@@ -98,15 +97,6 @@ TEST(Oversegmentation, SeedsDifferOnlyWithNoise) {
     EXPECT_NE(oversegment(p.geometry, p.graph, {}, 3), oversegment(p.geometry, p.graph, {}, 4));
     EXPECT_EQ(oversegment(p.geometry, p.graph, {.noise = 0}, 3),
               oversegment(p.geometry, p.graph, {.noise = 0}, 4));
-}
-
-TEST(Oversegmentation, AllUsesASeedForEach) {
-    const Prepared p = prepared(test::torus(1, 0.3, 30, 12));
-    const auto all = oversegment_all(p.geometry, p.graph, {}, 3, 11);
-    ASSERT_EQ(all.size(), 3U);
-    for (std::uint64_t k = 0; k < 3; ++k)
-        EXPECT_EQ(all[k], oversegment(p.geometry, p.graph, {}, hash_words({11, k})));
-    EXPECT_NE(all[0], all[1]);
 }
 
 TEST(Oversegmentation, IsFreeOfScale) {

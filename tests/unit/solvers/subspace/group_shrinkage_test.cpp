@@ -86,7 +86,7 @@ TEST(ExclusiveShrinkage, NoMoveLowersTheObjective) {
         if (repeat % 5 == 0 && pairs > 1)
             std::copy_n(v.begin(), features, v.begin() + static_cast<std::ptrdiff_t>(features));
         std::vector<double> w = v;
-        exclusive_shrink(w, static_cast<int>(features), p.step, p.alpha, p.beta, p.lambda, scratch);
+        exclusive_shrink(w, static_cast<int>(features), p.step, {p.alpha, p.beta, p.lambda}, scratch);
         expect_minimum(w, v, features, p, random);
     }
 }
@@ -108,7 +108,7 @@ TEST(ExclusiveShrinkage, AgreesWithBisectionForOneFeature) {
         for (int k = 0; k < 200; ++k)
             (sum_at(0.5 * (low + high)) > 0.5 * (low + high) ? low : high) = 0.5 * (low + high);
         std::vector<double> w = v;
-        EXPECT_NEAR(exclusive_shrink(w, 1, p.step, p.alpha, p.beta, p.lambda, scratch), low,
+        EXPECT_NEAR(exclusive_shrink(w, 1, p.step, {p.alpha, p.beta, p.lambda}, scratch), low,
                     1e-13 * (1.0 + low));
     }
 }
@@ -116,9 +116,9 @@ TEST(ExclusiveShrinkage, AgreesWithBisectionForOneFeature) {
 TEST(ExclusiveShrinkage, EmptyAndAllNegativeGroupsAreZero) {
     ExclusiveShrinkScratch scratch;
     std::vector<double> none;
-    EXPECT_EQ(exclusive_shrink(none, 3, 1.0, 0.1, 0.1, 10.0, scratch), 0.0);
+    EXPECT_EQ(exclusive_shrink(none, 3, 1.0, {0.1, 0.1, 10.0}, scratch), 0.0);
     std::vector<double> negative{-1.0, -2.0, -3.0, -4.0};
-    EXPECT_EQ(exclusive_shrink(negative, 2, 1.0, 0.0, 0.0, 0.0, scratch), 0.0);
+    EXPECT_EQ(exclusive_shrink(negative, 2, 1.0, {}, scratch), 0.0);
     EXPECT_EQ(negative, std::vector<double>(4, 0.0));
 }
 

@@ -188,13 +188,9 @@ TEST(ConformalFactor, GeneratedMeshesGiveFiniteValuesOfAreaMeanZero) {
 }
 
 TEST(ConformalFactor, RealMeshesGiveFiniteValuesOfAreaMeanZero) {
-    const auto folder = test::data_folder();
-    if (folder.empty()) GTEST_SKIP() << "set COSEG_DATA to the folder with the labelled sets";
-    for (const char* set : {"psb_airplane", "coseg_chairs", "humans_adobe"}) {
-        const auto files = test::off_files(folder / set);
-        for (std::size_t i = 0; i < files.size(); i += 9)
-            expect_finite_of_area_mean_zero(test::read_off(files[i]), files[i]);
-    }
+    const auto meshes = test::various_meshes();
+    if (meshes.empty()) GTEST_SKIP() << "set COSEG_DATA to the folder with the labelled sets";
+    for (const auto& [name, mesh] : meshes) expect_finite_of_area_mean_zero(mesh, name);
 }
 
 }  // namespace

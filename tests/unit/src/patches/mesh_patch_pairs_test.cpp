@@ -126,9 +126,6 @@ TEST(ConnectedPieces, ChessboardFieldsOfASquareStayApart) {
     const std::vector<int> pieces = connected_pieces(s.graph, board);
     EXPECT_EQ(*std::max_element(pieces.begin(), pieces.end()), 3);
     EXPECT_EQ(pieces[0], 0);
-    const std::vector<int> columns = s.labels([](double x, double) { return x < 0.5 ? 0 : 1; });
-    const std::vector<int> rows = s.labels([](double, double y) { return y < 0.5 ? 0 : 1; });
-    EXPECT_EQ(intersection_pieces(s.graph, {columns, rows}), pieces);
 }
 
 TEST(ConnectedPieces, VirtualEdgesConnectUnlessIgnored) {

@@ -7,7 +7,6 @@ namespace {
 
 TEST(PatchNumbering, WorkedExampleOfTheHeader) {
     const PatchNumbering numbers(2, {3, 2, 4, 4});
-    EXPECT_EQ(numbers.mesh_count(), 2);
     EXPECT_EQ(numbers.patch_count(), 13);
     EXPECT_EQ(numbers.first(0, 1), 3);
     EXPECT_EQ(numbers.first(1, 1), 9);

@@ -2,30 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "src/base/error.hpp"
 #include "src/mesh/face_geometry.hpp"
+#include "tests/support/face_maps.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/surface_checks.hpp"
 
 namespace coseg {
 namespace {
 
-FaceMap identity_map(int faces) {
-    FaceMap map;
-    map.input_faces = faces;
-    map.input_face.resize(static_cast<std::size_t>(faces));
-    std::iota(map.input_face.begin(), map.input_face.end(), 0);
-    map.label_donor = map.input_face;
-    return map;
-}
-
 TEST(MappedRemesh, BoxOfTwelveTrianglesKeepsItsSidesAndTheWayBack) {
     const TriMesh box = test::box(1.0, 0.2, 0.3, 1);
     ASSERT_EQ(box.face_count(), 12);
     TriMesh mesh = box;
-    FaceMap map = identity_map(12);
+    FaceMap map = test::identity_map(12);
     remesh_evenly(mesh, map, 3000);
     EXPECT_TRUE(test::is_closed_and_oriented(mesh));
     EXPECT_NEAR(test::volume(mesh), 0.06, 1e-9);  // creases do not move
@@ -50,7 +40,7 @@ TEST(MappedRemesh, BoxOfTwelveTrianglesKeepsItsSidesAndTheWayBack) {
 TEST(MappedRemesh, FacesWithoutANewTriangleTakeTheNearestLabel) {
     TriMesh mesh = test::sphere(5);  // 20480 faces on 500
     const FaceGeometry input = face_geometry(mesh);
-    FaceMap map = identity_map(mesh.face_count());
+    FaceMap map = test::identity_map(mesh.face_count());
     remesh_evenly(mesh, map, 500);
     EXPECT_LT(mesh.face_count(), 3000);
     const FaceGeometry geometry = face_geometry(mesh);
@@ -68,7 +58,7 @@ TEST(MappedRemesh, FacesWithoutANewTriangleTakeTheNearestLabel) {
 TEST(MappedRemesh, RefusesAMeshWithoutArea) {
     TriMesh mesh = test::sphere(0);
     mesh.vertices.setZero();
-    FaceMap map = identity_map(mesh.face_count());
+    FaceMap map = test::identity_map(mesh.face_count());
     EXPECT_THROW(remesh_evenly(mesh, map, 100), Error);
 }
 

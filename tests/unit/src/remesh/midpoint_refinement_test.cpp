@@ -2,28 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "src/mesh/face_geometry.hpp"
 #include "src/repair/mesh_repair.hpp"
+#include "tests/support/face_maps.hpp"
 #include "tests/support/manifold.hpp"
 #include "tests/support/shapes.hpp"
 
 namespace coseg {
 namespace {
 
-FaceMap identity_map(int faces) {
-    FaceMap map;
-    map.input_faces = faces;
-    map.input_face.resize(static_cast<std::size_t>(faces));
-    std::iota(map.input_face.begin(), map.input_face.end(), 0);
-    map.label_donor = map.input_face;
-    return map;
-}
-
 void expect_refined(const TriMesh& coarse, int minimum) {
     TriMesh mesh = coarse;
-    FaceMap map = identity_map(coarse.face_count());
+    FaceMap map = test::identity_map(coarse.face_count());
     refine_to_face_count(mesh, map, minimum);
     EXPECT_GE(mesh.face_count(), minimum);
     EXPECT_LE(mesh.face_count(), minimum + 1);
@@ -62,7 +52,7 @@ TEST(MidpointRefinement, TwoFacesBackToBack) {
 
 TEST(MidpointRefinement, TrianglesBecomeEven) {
     TriMesh mesh = test::box(8, 1, 1, 1);
-    FaceMap map = identity_map(mesh.face_count());
+    FaceMap map = test::identity_map(mesh.face_count());
     refine_to_face_count(mesh, map, 1000);
     const FaceGeometry geometry = face_geometry(mesh);
     EXPECT_LT(geometry.area.maxCoeff(), 10 * geometry.area.minCoeff());
@@ -79,10 +69,10 @@ TEST(MidpointRefinement, TrianglesBecomeEven) {
 
 TEST(MidpointRefinement, FineMeshesStayAsTheyAre) {
     TriMesh mesh = test::sphere(2);
-    FaceMap map = identity_map(mesh.face_count());
+    FaceMap map = test::identity_map(mesh.face_count());
     refine_to_face_count(mesh, map, mesh.face_count());
     EXPECT_EQ(mesh.faces, test::sphere(2).faces);
-    EXPECT_EQ(map.input_face, identity_map(mesh.face_count()).input_face);
+    EXPECT_EQ(map.input_face, test::identity_map(mesh.face_count()).input_face);
 }
 
 TEST(MidpointRefinement, LabelsComeBackThroughRepairAndRefinement) {

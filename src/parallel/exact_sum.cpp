@@ -1,10 +1,12 @@
-#include "solvers/numeric/exact_sum.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -26,7 +28,7 @@ void add_exactly(std::span<std::int64_t> limbs, double value) {
     std::uint64_t mantissa = bits & ((std::uint64_t{1} << 52U) - 1);
     if (biased != 0) mantissa |= std::uint64_t{1} << 52U;
     const int place = biased == 0 ? 0 : biased - 1;
-    const auto first = static_cast<std::size_t>(place / limb_bits);
+    const auto first = at(place / limb_bits);
     __extension__ typedef unsigned __int128 Wide;  // NOLINT(modernize-use-using)
     Wide shifted = static_cast<Wide>(mantissa) << (place % limb_bits);
     const bool negative = (bits >> 63U) != 0;
@@ -78,7 +80,7 @@ void ExactSum::clear() {
 }
 
 void ExactSum::add_field(std::size_t index, double value) {
-    if (!(value <= largest_addend_)) {
+    if (!(std::abs(value) <= largest_addend_)) {
         addend_overflowed_ = true;
         return;
     }
@@ -94,12 +96,11 @@ void ExactSum::add_scalar(std::size_t index, double value) {
 }
 
 void ExactSum::pack() {
-    // A rank's own part is cut off at the limit: the total then exceeds the limit however the columns are
-    // owned.
+    // A rank's own part is cut off at the limits, so that the message cannot overflow.
     const Ticks limit = Ticks{1} << (fraction_bits + range_bits);
     message_[0] = addend_overflowed_ ? 1 : 0;
     for (std::size_t i = 0; i < ticks_.size(); ++i) {
-        const Ticks part = std::min(ticks_[i], limit);
+        const Ticks part = std::clamp(ticks_[i], -limit, limit);
         message_[1 + 2 * i] = static_cast<std::int64_t>(part >> low_bits);
         message_[2 + 2 * i] = static_cast<std::int64_t>(part) & low_mask;
     }
@@ -113,7 +114,7 @@ void ExactSum::unpack() {
     const double unit = std::ldexp(1.0, exponent_ - fraction_bits);
     for (std::size_t i = 0; i < ticks_.size(); ++i) {
         const Ticks total = (static_cast<Ticks>(message_[1 + 2 * i]) << low_bits) + message_[2 + 2 * i];
-        if (total >= limit) overflowed_ = true;
+        if (total >= limit || total <= -limit) overflowed_ = true;
         field_[i] = static_cast<double>(total) * unit;
     }
     const std::span<std::int64_t> limbs = std::span(message_).subspan(1 + 2 * ticks_.size());
@@ -124,8 +125,9 @@ void ExactSum::unpack() {
 
 void ExactSum::reduce(const Comm& comm) {
     pack();
-    MPI_Allreduce(MPI_IN_PLACE, message_.data(), static_cast<int>(message_.size()), MPI_INT64_T, MPI_SUM,
-                  comm.raw());
+    in_messages(std::ssize(message_), [&](std::int64_t first, int count) {
+        MPI_Allreduce(MPI_IN_PLACE, message_.data() + first, count, MPI_INT64_T, MPI_SUM, comm.raw());
+    });
     unpack();
 }
 

@@ -1,4 +1,4 @@
-#include "solvers/numeric/exact_sum.hpp"
+#include "src/parallel/exact_sum.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,6 +70,26 @@ TEST(ExactSum, OverflowIsSeen) {
     sum.add_scalar(0, std::nan(""));
     sum.reduce(self);
     EXPECT_TRUE(sum.overflowed());
+    for (int k = 0; k < 4; ++k) {
+        sum.clear();
+        for (int i = 0; i <= k; ++i) sum.add_field(0, -3e3);
+        sum.reduce(self);
+        EXPECT_EQ(sum.overflowed(), 3e3 * (k + 1) >= 0x1p13) << k;
+    }
+}
+
+TEST(ExactSum, AFieldOfEitherSignIsExactAboveItsUnit) {
+    const Comm comm(MPI_COMM_WORLD);
+    ExactSum sum(3, 1.0, 0);
+    const double part = comm.rank() % 2 == 0 ? 1.0 : -1.0;
+    sum.add_field(0, -5.25);
+    sum.add_field(1, part * 0.375);
+    sum.add_field(1, part * 0x1p-79);
+    sum.add_field(2, comm.is_root() ? -0x1p-79 : 0.0);
+    sum.reduce(comm);
+    EXPECT_EQ(sum.field()[0], -5.25 * comm.size());
+    EXPECT_EQ(sum.field()[1], comm.size() % 2 == 0 ? 0.0 : 0.375 + 0x1p-79);
+    EXPECT_EQ(sum.field()[2], -0x1p-79);
 }
 
 TEST(ExactSum, SameBitsOnAnyNumberOfRanks) {

@@ -9,28 +9,31 @@
 
 namespace coseg {
 
-/// A field of nonnegative sums (row sums of W) and a few signed scalars (objective, s.s, s.y), reduced
-/// together.
+/// A field of many sums of one order of magnitude (the row sums of W) and a few scalars of any (the
+/// objective), reduced together.
 ///
-/// The field is kept as integers: multiples of 2^-80 times the power of two above `field_scale`. A sum above
-/// 2^12 times that power makes `overflowed()` true. The scalars are summed exactly, over the whole range of
-/// double, and rounded once, so that neither the order of addition nor the number of ranks shows.
+/// The field is kept as integers: multiples of 2^-80 times the power of two above `field_scale`, 16 bytes a
+/// sum. Addends are rounded towards zero to such a multiple, and a sum beyond 2^12 times that power makes
+/// `overflowed()` true. The scalars are summed exactly over the whole range of double, in 544 bytes each, and
+/// rounded at the end. Neither the order of addition nor the number of ranks shows in either.
 class ExactSum {
   public:
     /// `field_size` sums of order `field_scale` (> 0; the same on every rank) and `scalars` scalars.
     ExactSum(std::size_t field_size, double field_scale, std::size_t scalars);
+    /// Scalars only.
+    explicit ExactSum(std::size_t scalars) : ExactSum(0, 1.0, scalars) {}
 
     void clear();
-    /// value >= 0.
     void add_field(std::size_t index, double value);
     void add_scalar(std::size_t index, double value);
 
-    /// One MPI_Allreduce. Collective; every rank must have been given the same sizes and scale.
+    /// One reduction over the ranks. Collective; every rank must have been given the same sizes and scale.
     void reduce(const Comm& comm);
 
     /// Valid after reduce(), on all ranks.
     [[nodiscard]] const std::vector<double>& field() const noexcept { return field_; }
     [[nodiscard]] double scalar(std::size_t index) const noexcept { return scalars_[index]; }
+    [[nodiscard]] const std::vector<double>& scalars() const noexcept { return scalars_; }
     /// True if a sum left its range or an addend was not finite.
     [[nodiscard]] bool overflowed() const noexcept { return overflowed_; }
 
