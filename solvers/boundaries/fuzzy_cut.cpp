@@ -111,7 +111,7 @@ std::vector<int> strip_faces(const DualGraph& graph, const std::vector<int>& lab
     return strip;
 }
 
-/// What faces are held by: the labels they came with and what it costs to leave them.
+/// The labels that faces came with, and the costs of leaving them.
 struct Holding {
     const std::vector<int>& label;
     const std::vector<double>& cost;  // empty: nothing

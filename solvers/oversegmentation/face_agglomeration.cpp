@@ -71,7 +71,7 @@ void ContactLists::merge_both(int a, int b) {
     while (j != y.end()) take(*j++);
 }
 
-/// What a and b touch, a touches, and b nothing.
+/// Lets a touch everything that a and b touched, and b nothing.
 void ContactLists::unite(int a, int b) {
     merge_both(a, b);
     Place& place = places_[at(a)];
@@ -86,7 +86,7 @@ void ContactLists::unite(int a, int b) {
     places_[at(b)].size = 0;
 }
 
-/// In the neighbour's list, what it shared with `from` it now shares with `to`, which is the lower number.
+/// In the neighbour's list, moves what it shared with `from` to `to`, which is the lower number.
 void ContactLists::redirect(int neighbor, int from, int to) {
     Place& place = places_[at(neighbor)];
     Contact* const list = contacts_.data() + place.begin;
@@ -112,12 +112,12 @@ struct Group {
     int version;     // counts the merges; -1 once it is part of another
 };
 
-/// The groups while they grow; a group keeps the number of its lowest node.
+/// The groups while they grow. A group keeps the number of its lowest node.
 ///
-/// The queue holds one candidate a group. What two groups would change is other only after one of them has
-/// grown, and a group that has grown takes its best candidate anew; so the best pair of all is the candidate
-/// of whichever of its groups grew last, unless that group's best partner has grown since. Such a candidate
-/// surfaces before any worse one, and is then replaced.
+/// The queue holds one candidate for each group. The change that merging two groups would bring differs only
+/// after one of them has grown, and a group that has grown looks for its best candidate again. The best pair
+/// of all is therefore the candidate of whichever of its groups grew last, unless that group's best partner
+/// has grown since. Such a candidate comes to the top before any worse one, and is then replaced.
 class Agglomeration {
   public:
     explicit Agglomeration(const WeightedGraph& graph);
@@ -154,7 +154,8 @@ Agglomeration::Agglomeration(const WeightedGraph& graph)
     for (int v = 0; v < count_; ++v) renew_candidate(v);
 }
 
-/// Of the sum over groups of cut / mass, if a and b were merged; a < b, so that both see the same rounding.
+/// The change of the sum over groups of cut / mass if a and b were merged; a < b, so that both see the same
+/// rounding.
 double Agglomeration::change(int a, int b, double shared) const {
     const Group& x = groups_[at(a)];
     const Group& y = groups_[at(b)];
@@ -200,7 +201,8 @@ void Agglomeration::merge(int a, int b) {
     Group& grown = groups_[at(a)];
     Group& absorbed = groups_[at(b)];
     grown.mass += absorbed.mass;
-    // Summed anew: cut_a + cut_b - 2 c_ab would carry rounding errors from merge to merge.
+    // The cut is summed again, because cut_a + cut_b - 2 c_ab would carry rounding errors from merge to
+    // merge.
     grown.cut = 0.0;
     for (const Contact& c : contacts_.of(a)) grown.cut += c.weight;
     grown.density = grown.cut / grown.mass;

@@ -195,7 +195,7 @@ Eigen::VectorXd start_vector(const CutOperator& op, std::uint64_t trial) {
     return start;
 }
 
-/// Remembers how far the first pair that has not converged is from convergence.
+/// Notes how far the first pair that has not converged is from convergence.
 struct Progress {
     double residual = 0.0;
 };
@@ -288,7 +288,8 @@ EigenPairs root_eigenpairs(const CutOperator& op, ServedProduct& product, const 
 EigenPairs krylov_eigenpairs(const Comm& comm, const CutOperator& op, ServedProduct& product,
                              const EigenSearch& search, const SpectralOptions& options) {
     EigenPairs found;
-    // The root lets the others go however its step ends, so nobody waits for a product that does not come.
+    // The root releases the others however its step ends, so that no rank waits for a product that does not
+    // come.
     agree(comm, [&] {
         if (comm.is_root()) {
             const ServedProduct::Release release(product);
@@ -318,9 +319,9 @@ void sort_descending(EigenPairs& pairs) {
     pairs = std::move(sorted);
 }
 
-/// Replaces the smallest pairs by larger ones that the first solve missed, until the complement has none. A
-/// look takes a coarse tolerance, half the work: the error of an eigenvalue is of the order of the squared
-/// residual.
+/// Replaces the smallest pairs by larger ones that the first solve missed, until the complement has none.
+/// This search uses a coarse tolerance, which halves the work: the error of an eigenvalue is of the order of
+/// the squared residual.
 void find_missed_pairs(const Comm& comm, const CutOperator& op, ServedProduct& product,
                        const SpectralOptions& options, EigenPairs& pairs) {
     SpectralOptions coarse = options;

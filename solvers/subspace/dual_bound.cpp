@@ -64,7 +64,7 @@ double PaperDualBound::check_pair(int c, int i, const double* scores, double rou
     return std::sqrt(plain_squares);
 }
 
-/// Both repairs shorten the excess at hand, of the given norm, to alpha.
+/// Both repairs shorten the current excess, of the given norm, to alpha.
 void PaperDualBound::repair(int c, int i, double norm) {
     const std::size_t features = excess_.size();
     const std::size_t row = at(i) * features;

@@ -51,7 +51,8 @@ std::vector<std::vector<int>> mesh_links(const std::vector<std::string>& names, 
     if (wanted + 1 >= names.size()) return {};
     std::vector<std::vector<int>> result(names.size());
     std::size_t missing = names.size() * wanted / 2;
-    // Half as many cycles as links would do if no two shared a link and none met a mesh that has enough.
+    // Half as many cycles as links would be enough if no two cycles shared a link and none met a mesh that
+    // has enough links.
     const std::size_t most_cycles = 4 * wanted + 16;
     for (std::uint64_t cycle = 0; cycle < most_cycles && missing > 0; ++cycle) {
         missing -= at(add_cycle(random_cycle(names, seed, cycle), wanted, result));

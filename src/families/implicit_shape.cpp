@@ -22,7 +22,8 @@ void ImplicitShape::add(int label, double blend, PrimitivePointer primitive) {
 double ImplicitShape::distance(const Vector3d& point) const {
     double value = std::numeric_limits<double>::infinity();
     for (const Part& part : parts_) {
-        // Further off, the part has no say here; twice the blend because distances may come out too short.
+        // Farther away, the part has no influence here. Twice the blend is taken because distances may come
+        // out too short.
         const double reach = value + 2.0 * part.blend + part.radius;
         if (reach < 0.0 || (point - part.centre).squaredNorm() > reach * reach) continue;
         const double d = part.primitive->distance(point);

@@ -200,7 +200,7 @@ void fill_rows(const TriMesh& mesh, std::span<const BatchDistances> batches, Geo
     }
 }
 
-/// Peels batches off from the far ends of the surface inwards, so that each stays compact.
+/// Takes batches away from the far ends of the surface inwards, so that each stays compact.
 void fill_table(const TriMesh& mesh, const FaceGeometry& geometry, const SurfaceGraph& graph,
                 std::vector<int> remaining, GeodesicTable& table) {
     table.distance.resize(static_cast<Eigen::Index>(remaining.size()), mesh.face_count());
@@ -221,8 +221,8 @@ void fill_table(const TriMesh& mesh, const FaceGeometry& geometry, const Surface
     }
 }
 
-/// The first of the smallest. The bits of nonnegative floats are ordered as the floats are, and of integers
-/// compilers find the smallest with vectors.
+/// The first of the smallest values. The bits of nonnegative floats are ordered as the floats are, and
+/// compilers find the smallest of integers with vector instructions.
 COSEG_VECTOR_CLONES Eigen::Index smallest_of(const float* distance, int count) {
     int least = std::numeric_limits<int>::max();
     for (int k = 0; k < count; ++k) least = std::min(least, std::bit_cast<int>(distance[k]));

@@ -59,8 +59,9 @@ class NodeQueue {
     std::uint32_t last_ = 0;
 };
 
-/// Offers every node's distances that have come down to its neighbours, in all lanes at once. `is_pending`
-/// marks nodes whose neighbours have not been told. Returns by how many the marks became more.
+/// Offers the distances of every node that have become smaller to its neighbours, in all lanes at once.
+/// `is_pending` marks the nodes whose neighbours have not been told. Returns by how many the marks became
+/// more.
 COSEG_VECTOR_CLONES int sweep(const SurfaceGraph& graph, std::span<const int> order, PathLanes* distances,
                               unsigned char* is_pending) {
     int more = 0;

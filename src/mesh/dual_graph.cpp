@@ -53,7 +53,7 @@ std::vector<DualEdge> mesh_edges(const TriMesh& mesh, const FaceGeometry& geomet
     return edges;
 }
 
-/// A tenth of the side of a mean face: components part from each other at the lowest price a cut can find,
+/// A tenth of the side of a mean face. Components are thus cut apart at the lowest cost that a cut can have,
 /// but two of them still count as neighbours.
 double virtual_length(const FaceGeometry& geometry) {
     return 0.1 * std::sqrt(geometry.total_area /

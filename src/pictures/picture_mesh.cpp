@@ -15,7 +15,7 @@ namespace coseg {
 
 namespace {
 
-/// Vertices without a triangle have no say in what the picture shows.
+/// Vertices without a triangle do not influence the picture.
 void scale_into_unit_ball(TriMesh& mesh) {
     if (mesh.face_count() == 0) return;
     Eigen::Vector3d low = mesh.vertices.col(mesh.faces(0, 0));

@@ -66,7 +66,8 @@ Camera fit_camera(const TriMesh& mesh, const View& view, const PictureOptions& o
     return camera;
 }
 
-/// What the eye meets in a pixel, its samples averaged; light not yet weakened by what stands in its way.
+/// What the eye meets in a pixel, as the mean of its samples. The light is not yet weakened by what blocks
+/// it.
 struct Pixel {
     Vector3f sky = Vector3f::Zero();
     Vector3f lamp = Vector3f::Zero();
@@ -261,7 +262,7 @@ void Painter::smooth_light() {
     }
 }
 
-/// What the sky does not reach, light that bounced off the shape itself does.
+/// Where the sky does not reach, light that bounced off the shape itself does.
 float softened(float open_sky) { return 0.22F + 0.78F * open_sky; }
 
 Image Painter::develop(const Color& background) {
