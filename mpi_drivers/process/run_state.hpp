@@ -1,5 +1,5 @@
 #pragma once
-// What `--state DIR` gives a run: a locked folder that keeps results, and the wish to end that signals express.
+// What a run has with `--state DIR`: a locked folder that keeps results, and signals that ask the run to end.
 
 #include <functional>
 #include <optional>
@@ -14,16 +14,17 @@ namespace coseg {
 
 class RunState {
   public:
-    /// Collective: rank 0 makes and locks the folder. Throws AgreedError(output): it cannot be written, holds other
-    /// things, or another run has it.
+    /// Makes and locks the folder on rank 0. Collective. Throws AgreedError(output) if it cannot be written,
+    /// holds other things, or another run has it.
     RunState(const Comm& comm, const std::string& directory, LockMode mode, double checkpoint_seconds);
 
     [[nodiscard]] const StateFolder& folder() const noexcept { return *folder_; }
     [[nodiscard]] double checkpoint_seconds() const noexcept { return checkpoint_seconds_; }
 
-    /// Has this rank been asked to end? Not collective.
+    /// Whether this rank has been asked to end. Not collective.
     [[nodiscard]] bool stop_is_raised() const noexcept { return stop_.is_raised(); }
-    /// Collective: throws AgreedError(checkpointed) if any rank has. done: what the state holds, e.g. "all meshes".
+    /// Throws AgreedError(checkpointed) if any rank has been asked to end. `done` says what the state holds,
+    /// for example "all meshes". Collective.
     void end_if_asked(const Comm& comm, const std::string& done) const;
 
   private:
@@ -33,7 +34,7 @@ class RunState {
     double checkpoint_seconds_;
 };
 
-/// The error that ends a run with its state written. done: what the state holds.
+/// The error that ends a run with its state written. `done` says what the state holds.
 AgreedError checkpointed(const std::string& done);
 
 }  // namespace coseg

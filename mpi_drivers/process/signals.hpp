@@ -17,12 +17,12 @@
 
 namespace coseg {
 
-/// From now on stop requests are heeded, also after a StopRequest has gone: a signal that arrives while the
-/// program starts or ends then counts like one that comes in between.
+/// Makes the program heed stop requests from now on, also after a StopRequest has gone. A signal that arrives
+/// while the program starts or ends then counts like one that comes in between.
 void heed_stop_requests();
 
-/// While it lives, stop requests are heeded: the stages look at the flag between meshes and iterations and
-/// end with the state written. At most one in a process.
+/// During its lifetime stop requests are heeded: the stages look at the flag between meshes and iterations,
+/// and end with the state written. There is at most one in a process.
 class StopRequest {
   public:
     StopRequest();
@@ -30,13 +30,13 @@ class StopRequest {
     StopRequest(const StopRequest&) = delete;
     StopRequest& operator=(const StopRequest&) = delete;
 
-    /// Has a signal come? Not collective.
+    /// Whether a signal has come. Not collective.
     [[nodiscard]] bool is_raised() const noexcept;
 };
 
-/// While it lives, the signals of the table first run `undo`, on a thread of its own, and then end the
+/// During its lifetime the signals of the table first run `undo`, on a thread of its own, and then end the
 /// process as they would without it. `undo` may run at any moment beside the owner's work and must not throw.
-/// At most one in a process.
+/// There is at most one in a process.
 class TerminationWatch {
   public:
     /// Throws Error(internal) if the system has no pipe or thread left.
@@ -49,8 +49,8 @@ class TerminationWatch {
     std::thread thread_;
 };
 
-/// While it lives, this thread puts off the signals of a TerminationWatch: what must be undone can so be made
-/// together with its watch.
+/// During its lifetime this thread postpones the signals of a TerminationWatch. By this, something that must
+/// be undone can be made together with its watch.
 class TerminationPause {
   public:
     TerminationPause();

@@ -1,5 +1,5 @@
 #pragma once
-// From coefficients and relations of patches to the affinity that is cut.
+// Makes the affinity that is cut of the coefficients and of the pairs of patches that touch or overlap.
 
 #include <vector>
 
@@ -10,28 +10,28 @@
 
 namespace coseg {
 
-/// S_ij = 1/2 (||w_ij||_2 + ||w_ji||_2), w_ij the H coefficients of a pair. The transpose comes by one
-/// exchange of entries. Collective. Source: the paper, equation (8).
+/// S_ij = 1/2 (||w_ij||_2 + ||w_ji||_2), where w_ij holds the H coefficients of a pair. One exchange of
+/// entries gives the transpose. Collective. Source: the paper, equation (8).
 SparseRows symmetric_affinity(const Comm& comm, const SparseCoefficients& coefficients);
 
-/// C = B + B^T, B_ij = ||w_ij||_2 / sum_i ||w_ij||_2: what reconstructs a patch weighs the same for every
-/// patch. Deviates: not in the paper. A column is the patch that chooses, so it is columns that are
-/// normalised. Collective.
+/// C = B + B^T with B_ij = ||w_ij||_2 / sum_i ||w_ij||_2. The patches that reconstruct a patch thus have the
+/// same total weight for every patch. Collective. Deviates: this is not in the paper. A column is the patch
+/// that chooses its matches, so that columns are normalised.
 SparseRows normalized_links(const Comm& comm, const SparseCoefficients& coefficients);
 
-/// S_ij <- S_ij (1 - mc) for patches i, j with a common boundary. `neighbors` as from gather_patch_pairs.
-/// Source: the paper, the minima rule. Entries that do not exist stay so.
+/// S_ij <- S_ij (1 - mc) for patches i, j with a common boundary. `neighbors` are as gather_patch_pairs gives
+/// them. Entries that do not exist stay so. Source: the paper, the minima rule.
 void apply_minima_rule(SparseRows& affinity, const std::vector<GlobalPatchNeighbors>& neighbors);
 
-/// A_ij = boundary length (1 - mc)^5, each mesh scaled to a total of 1; rows `range`. `mesh_of`: mesh of each
-/// patch. Deviates: not in the paper, whose minima rule only weakens entries that exist. The
-/// exponent decides how much of A lies across the boundaries of true parts: with 3 and 5, 4.3 and 3.0 % on
-/// aeroplanes, 6.4 and 5.4 % on pliers.
+/// A_ij = boundary length (1 - mc)^5, where each mesh is scaled to a total of 1; rows `range`. `mesh_of`: the
+/// mesh of each patch. Deviates: this is not in the paper, whose minima rule only weakens entries that exist.
+/// The exponent decides how much of A lies across the boundaries of true parts: with 3 and 5, 4.3 and 3.0 %
+/// on aeroplanes, 6.4 and 5.4 % on pliers.
 SparseRows adjacency_affinity(BlockRange range, const std::vector<GlobalPatchNeighbors>& neighbors,
                               const std::vector<int>& mesh_of);
 
-/// O_ij = intersection over union of two patches of different over-segmentations; rows `range` of a matrix of
-/// `size`. Deviates: the paper has one over-segmentation a mesh.
+/// O_ij is the intersection over union of two patches of different over-segmentations; rows `range` of a
+/// matrix of `size`. Deviates: the paper has one over-segmentation for each mesh.
 SparseRows overlap_affinity(BlockRange range, const std::vector<GlobalPatchOverlap>& overlaps,
                             std::int64_t size);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The matrix products that carry the solvers' weight, from the machine's BLAS.
+// The matrix products that take most of the solvers' time, from the machine's BLAS.
 
 #include <Eigen/Core>
 
@@ -34,7 +34,7 @@ void multiply_transposed(const MatrixView<const float>& A, const MatrixView<cons
 void multiply(const MatrixView<const double>& A, const MatrixView<const double>& B, double keep,
               const MatrixView<double>& C);
 
-/// Keeps a threaded BLAS to one thread: ranks are our parallelism, and threads of several ranks would fight
+/// Keeps a threaded BLAS to one thread. Ranks are our parallelism, and threads of several ranks would compete
 /// for the same cores.
 void use_one_blas_thread();
 

@@ -2,7 +2,8 @@
 
 #include "src/base/vector_clones.hpp"
 
-// One text for every width of vectors: the compiler's own vectors, in functions for the machines that have them.
+// One text for every width of vectors: the compiler's own vectors, in functions for the machines that have
+// them.
 #define COSEG_INLINE __attribute__((always_inline)) inline
 
 namespace coseg {
@@ -25,8 +26,8 @@ struct Vector {
     typedef float type __attribute__((vector_size(width * sizeof(float)), may_alias, aligned(sizeof(float))));
 };
 
-/// A block of `vectors` times `width` rows and `columns` columns, whose sums stay in registers. Of the columns' groups
-/// only the first.
+/// A block of `vectors` times `width` rows and `columns` columns, whose sums stay in registers. Of the
+/// columns' groups only the first.
 template <int width, int vectors, int columns>
 COSEG_INLINE void score_block(ScoredRows rows, ScoredColumns group, int depth, PairScores to) {
     using V = typename Vector<width>::type;

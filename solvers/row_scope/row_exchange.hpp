@@ -11,7 +11,8 @@
 
 namespace coseg {
 
-/// Throws Error(internal) if `pairs` of `features` values each are more than a rank can send or receive at once.
+/// Throws Error(internal) if `pairs` of `features` values each are more than a rank can send or receive at
+/// once.
 void refuse_long_exchange(std::int64_t pairs, std::int64_t features);
 
 /// The plan of the exchange for one sparsity pattern. Rows are owned like columns: block_range(N, ranks,

@@ -213,8 +213,8 @@ double SparseRegression::descend(Column& column, std::vector<double>& gradient) 
     return largest;
 }
 
-/// The minimum on the support with its signs, or as far towards it as they hold: where columns are alike, sweeps
-/// alone creep. False once the support stands still.
+/// The minimum on the support with its signs, or as far towards it as they hold: where columns are alike,
+/// sweeps alone creep. False once the support stands still.
 bool SparseRegression::solve_support(Column& column, std::vector<double>& gradient) const {
     std::vector<std::size_t> support;
     for (std::size_t i = 0; i < column.weights.size(); ++i) {
@@ -231,7 +231,8 @@ bool SparseRegression::solve_support(Column& column, std::vector<double>& gradie
     }
     Eigen::VectorXd step = gram.completeOrthogonalDecomposition().solve(slope);
     const Eigen::VectorXd flat = slope - gram * step;
-    // Dependent columns: along what the Gram matrix does not see, the penalty alone decides, up to a change of sign.
+    // Dependent columns: along what the Gram matrix does not see, the penalty alone decides, up to a change
+    // of sign.
     const bool is_flat = flat.norm() > 1e-7 * (slope.norm() + beta_);
     if (is_flat) step = flat;
     if (!step.allFinite() || !(step.dot(slope) > 0.0)) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Signed numbers of things as indices of containers.
+// Makes indices of containers out of signed numbers of things.
 
 #include <concepts>
 #include <cstddef>
@@ -7,8 +7,9 @@
 
 namespace coseg {
 
-/// The index of item `i`, which is not negative, of a container of the C++ library: values[at(i)]. Numbers of faces, patches and
-/// meshes are signed here, so that differences of them are safe, and an enumerator may number the rows of a table.
+/// The index of item `i`, which is not negative, in a container of the C++ library: values[at(i)]. Numbers of
+/// faces, patches and meshes are signed here, so that their differences are safe, and an enumerator may
+/// number the rows of a table.
 template <class I>
 requires std::integral<I> || std::is_enum_v<I>
 constexpr std::size_t at(I i) noexcept { return static_cast<std::size_t>(i); }

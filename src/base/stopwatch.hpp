@@ -1,11 +1,12 @@
 #pragma once
-// The time that has passed.
+// Measures the time that has passed.
 
 #include <chrono>
 
 namespace coseg {
 
-/// Runs from when it is made, by a clock that nobody sets: the one way in which the program takes durations.
+/// Runs from the moment at which it is made, by a clock that nobody can set. The program takes all durations
+/// in this way.
 class Stopwatch {
   public:
     using Clock = std::chrono::steady_clock;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and names as messages, pages and files show them.
+// Writes numbers and names as messages, pages and files show them.
 
 #include <string>
 #include <string_view>
@@ -9,13 +9,14 @@ namespace coseg {
 /// Three significant digits, as of "%.3g": 0.0123, 1.5e-07.
 std::string significant(double value);
 
-/// A fixed number of digits behind the point.
+/// The value with a fixed number of digits behind the point.
 std::string decimal(double value, int digits);
 
 /// A share of 1 in percent, with `digits` behind the point: percent(0.5, 0) is "50 %".
 std::string percent(double share, int digits);
 
-/// `text` as XML and HTML take it, between tags or inside an attribute's quotation marks.
+/// `text` with the characters escaped that XML and HTML would misread, between tags or inside an attribute's
+/// quotation marks.
 std::string escaped(std::string_view text);
 
 }  // namespace coseg

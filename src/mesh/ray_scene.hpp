@@ -1,5 +1,5 @@
 #pragma once
-// A triangle mesh as the ray tracer Embree holds it.
+// Gives a triangle mesh to the ray tracer Embree.
 
 #include <Eigen/Core>
 #include <memory>
@@ -9,10 +9,10 @@ struct RTCSceneTy;
 
 namespace coseg {
 
-/// Owns Embree's device and the scene of one mesh. Serial: starts no threads. Can be moved, not copied.
+/// Owns Embree's device and the scene of one mesh. Serial: it starts no threads. It can be moved, not copied.
 class RayScene {
   public:
-    /// Whether rays may bring a filter of their own; looking for one costs every ray a little.
+    /// Whether rays may have a filter of their own. Testing for one costs every ray a little time.
     enum class Filter { none, per_ray };
 
     /// points: 3 x V, corners: 3 x F. Hits are tested in Embree's robust mode, which misses no ray between
@@ -25,7 +25,7 @@ class RayScene {
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// For Embree's calls, as long as this lives.
+    /// The scene for Embree's functions, valid during the lifetime of this object.
     [[nodiscard]] RTCSceneTy* get() const noexcept { return scene_.get(); }
 
   private:
@@ -39,8 +39,8 @@ class RayScene {
     std::unique_ptr<RTCSceneTy, SceneRelease> scene_;
 };
 
-/// Ray number i of `rays`, one of Embree's packets (RTCRay8, RTCRay16), from `from` along `direction` between
-/// the distances `near` and `far`.
+/// Sets ray number i of `rays`, which is one of Embree's packets (RTCRay8, RTCRay16): from `from` along
+/// `direction` between the distances `near` and `far`.
 template <class Rays>
 void set_ray(Rays& rays, int i, const Eigen::Vector3f& from, const Eigen::Vector3f& direction, float near,
              float far) {

@@ -1,5 +1,5 @@
 #pragma once
-// Sums over ranks that come out with the same bits on any number of ranks, in one reduction.
+// Sums over ranks that have the same bits on any number of ranks, in one reduction.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ class ExactSum {
   public:
     /// `field_size` sums of order `field_scale` (> 0; the same on every rank) and `scalars` scalars.
     ExactSum(std::size_t field_size, double field_scale, std::size_t scalars);
-    /// Scalars only.
+    /// Sums of scalars only.
     explicit ExactSum(std::size_t scalars) : ExactSum(0, 1.0, scalars) {}
 
     void clear();
