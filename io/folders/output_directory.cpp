@@ -68,13 +68,14 @@ std::string own_mark() {
     return partial_mark + std::string(host.data()) + "-";
 }
 
-/// Inside a folder that exists: it may be a mount point, or its parent may be closed to us.
+/// The partial folder lies inside a folder that exists: this may be a mount point, or its parent may be
+/// closed to us.
 std::string staging_prefix(const std::string& path) {
     std::error_code ignored;
     return (fs::is_directory(path, ignored) ? path + "/" : path) + own_mark();
 }
 
-/// Ended, but not yet seen to by its parent, which in a container may be never.
+/// The process has ended, but its parent has not collected its status, which in a container may never happen.
 bool is_zombie(pid_t process) {
     std::ifstream file("/proc/" + std::to_string(process) + "/stat");
     std::string line;
@@ -92,7 +93,8 @@ bool is_of_dead_process(const std::string& number) {
     return is_zombie(process);
 }
 
-/// A process that is killed cannot tidy up: the next run on this machine that writes to the same place does.
+/// A process that is killed cannot tidy up. The next run on this machine that writes to the same place does
+/// it instead.
 void remove_leftovers(const fs::path& prefix) {
     const std::string mark = prefix.filename().string();
     std::error_code ignored;

@@ -107,7 +107,7 @@ void StateLock::acquire(LockMode mode) {
     if (!record.empty() && host_of(record) != host_name()) wait_for_sign_of_life(record);
 }
 
-/// Clocks of hosts differ, so it is a change of the file's time that counts, not its age.
+/// The clocks of hosts differ. A change of the file's time therefore counts, not its age.
 void StateLock::wait_for_sign_of_life(const std::string& holder) {
     const timespec before = changed_at(descriptor_);
     const auto end = std::chrono::steady_clock::now() + timing_.patience;

@@ -63,7 +63,7 @@ MeshOrder sort_by_mesh(const std::vector<int>& mesh_of) {
     return meshes;
 }
 
-/// What is known of a column while its rows go by.
+/// The state of a column while its rows are scored one after the other.
 struct MeshScopePass::Survey {
     const PassColumn* column = nullptr;
     int own_group = 0;

@@ -23,7 +23,7 @@ constexpr double negligible = 1e-15;
 
 enum class ColumnState { open, gap_reached, rounding_reached, limit_reached };
 
-/// A column on its way: its working set, its point and both ends of its gap.
+/// The state of a column that is being solved: its working set, its point and both ends of its gap.
 struct Column {
     WorkingColumn working;
     std::vector<int> groups;             ///< group of each run of working.group_begin
@@ -61,7 +61,8 @@ class MeshScopeSolver {
     /// The columns [begin, end) of the problem, each solved; a function of these columns alone.
     SolvedTile solve_tile(std::int64_t begin, std::int64_t end);
 
-    /// The clock has cut a tile short: the last one solved depends on the machine.
+    /// The time limit has ended a tile early. Which tile was the last one to be solved depends on the
+    /// machine.
     [[nodiscard]] bool timed_out() const noexcept { return timed_out_; }
     [[nodiscard]] const FeatureStack& stack() const noexcept { return stack_; }
     [[nodiscard]] int patch(int place) const { return meshes_.order[at(place)]; }
@@ -154,7 +155,7 @@ SolvedTile MeshScopeSolver::solve_tile(std::int64_t begin, std::int64_t end) {
     return tile;
 }
 
-/// Pass, add, solve, until every column has its gap. Returns the number of passes.
+/// Repeats pass, addition of pairs and solve until every column has its gap. Returns the number of passes.
 int MeshScopeSolver::solve_batch(std::span<Column*> batch, const std::vector<int>& allowed) {
     int passes = 0;
     std::vector<Column*> open(batch.begin(), batch.end());
@@ -278,8 +279,9 @@ void MeshScopeSolver::append_column(const Column& column, SolvedTile& tile) cons
     tile.offsets.push_back(static_cast<std::int64_t>(tile.rows.size()));
 }
 
-/// Room for as many pairs as there will be if the columns to come are like those before, so that the largest
-/// array of a large problem is not copied while it grows. Memory that is never written to is not taken.
+/// Reserves memory for as many pairs as there will be if the columns to come are like those before, so that
+/// the largest array of a large problem is not copied while it grows. The operating system does not provide
+/// memory that is never written to.
 void make_room(const SolvedTile& tile, SparseCoefficients& sparse) {
     const std::size_t pairs = sparse.rows.size() + tile.rows.size();
     if (pairs <= sparse.rows.capacity()) return;
@@ -308,8 +310,8 @@ void add_tile(const SolvedTile& tile, SparseCoefficients& sparse, ExactSum& sums
     totals.rounds.push_back(tile.rounds);
 }
 
-/// Both ends of the gap where the columns together have decreased the objective so much, and no W does so by
-/// more than `largest_decrease`.
+/// The two ends of the gap, where the columns together have decreased the objective by this much, and no W
+/// decreases it by more than `largest_decrease`.
 HistoryRow certificate(const FeatureStack& stack, double decrease, double largest_decrease) {
     HistoryRow row;
     row.objective = stack.squared_norm - decrease;

@@ -32,8 +32,9 @@ bool starts_with_any(std::string_view word, const std::array<std::string_view, C
                        [&](std::string_view prefix) { return word.starts_with(prefix); });
 }
 
-/// A solver that solves nothing asks for every option it knows: what is left over is misspelt even where the
-/// problem was too small for this rank to need a solver. A value that it refuses is a mistake of the user's.
+/// A solver that solves nothing asks for every option that it knows. An option that is left over is misspelt,
+/// even where the problem was too small for this rank to need a solver. A value that the solver refuses is a
+/// mistake of the user's.
 void mark_solver_options() {
     EigenSolver solver;
     check(EPSCreate(PETSC_COMM_SELF, solver.out()), "EPSCreate");
@@ -49,7 +50,8 @@ bool is_option_name(const std::string& word) {
     return word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
 }
 
-/// OpenBLAS splits products by its number of threads, which it takes from the cores that a rank may use.
+/// OpenBLAS divides products by its number of threads, which it takes from the number of cores that a rank
+/// may use.
 void hold_blas_to_one_thread() {
     using SetThreads = void (*)(int);
     if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"); symbol != nullptr) {

@@ -16,8 +16,9 @@ namespace coseg {
 
 namespace {
 
-/// Columns looked at together: as many as pay for reading the rows once more, and no more than that where the
-/// rows are in the cache and what a tile keeps is as large as they are. The answer does not depend on it.
+/// The number of columns that are scored together. It is large enough to pay for reading the rows once more,
+/// and not larger where the rows are in the cache and the arrays of a tile are as large as they are. The
+/// answer does not depend on it.
 int tile_columns(const FeatureStack& stack) {
     constexpr int few_rows = 4096;
     return (stack.size <= few_rows ? 2 : 4) * static_cast<int>(coefficient_tile);
@@ -36,7 +37,7 @@ int longest_feature(const FeatureStack& stack) {
 
 }  // namespace
 
-/// The columns at hand, whole coefficient tiles, and the scores of one panel of rows.
+/// The current columns, which are whole coefficient tiles, and the scores of one panel of rows.
 struct AllPairsPass::Tile {
     int first = 0;        ///< column
     int first_local = 0;  ///< the same, counted from this rank's first
@@ -92,7 +93,7 @@ void AllPairsPass::insert(Candidate* best, const Candidate& candidate) {
     best[place] = candidate;
 }
 
-/// An MPI reduction of blocks of `kept` candidates; the result does not depend on the order of merging.
+/// An MPI reduction of blocks of `kept` candidates. The result does not depend on the order of merging.
 void AllPairsPass::merge_blocks(void* in, void* inout, int* count, MPI_Datatype* /*type*/) {
     const auto* from = static_cast<const Candidate*>(in);
     auto* to = static_cast<Candidate*>(inout);
@@ -209,7 +210,7 @@ void AllPairsPass::look_first(Tile& tile, int panel) {
         return column_best_[at(tile.first_local + c) * kept + kept - 1].score;
     };
     for (int c = 0; c < tile.width; ++c) {
-        // Rounded down, so that what the exact comparison keeps is looked at.
+        // Rounded down, so that no pair is left out that the exact comparison would keep.
         const double least = least_of(c);
         tile.least_squares[at(c)] = static_cast<float>(least * least * (1.0 - 4.0 * single_rounding));
     }
@@ -235,7 +236,7 @@ void AllPairsPass::exact_scores(const Tile& tile, int column, int row) {
     feature_products(stack_, row, tile.exact_duals.col(column).data(), pair_scores_.data());
 }
 
-/// A pair that may violate its limit, going by its scores in single precision.
+/// Looks at a pair that may violate its limit according to its scores in single precision.
 void AllPairsPass::inspect_pair(const Tile& tile, int column, int row, PaperDualBound& bound) {
     const auto c = at(column);
     const std::size_t r = at(row) % panel_rows;

@@ -120,7 +120,7 @@ bool ProximalNewton::step_along_direction(const std::vector<double>& centre, dou
     const std::size_t count = centre.size();
     trial_.dual.resize(count);
     trial_.dual_product.resize(count);
-    // Near the optimum an increase drowns in the value's last bits.
+    // Near the optimum an increase is smaller than the rounding of the value.
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * stack_.squared_norm;
     double size = 1.0;
     for (int halving = 0; halving < halving_limit; ++halving, size *= 0.5) {
@@ -144,7 +144,7 @@ ProximalPoint ProximalNewton::minimise(const std::vector<double>& centre,
     current_.dual_product = centre_product;
     evaluate(current_, centre, reach, prices);
     differentiate(current_);
-    // At the optimum itself nothing moves but the last bits.
+    // At the optimum itself only the last bits change.
     const double rounding2 = smallest_gradient * smallest_gradient * stack_.squared_norm;
     const auto reached = [&] {
         return current_.gradient2 <=

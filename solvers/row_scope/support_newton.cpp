@@ -16,7 +16,8 @@ constexpr int conjugate_limit = 40;
 constexpr double sufficient_residual = 1e-2;  ///< relative; further steps see to the rest
 /// A block of more weights than this is scaled by its diagonal alone.
 constexpr std::size_t largest_block = 400;
-/// Added to a block's diagonal, relative: columns that depend on each other have no factor otherwise.
+/// Added to a block's diagonal, relative to it: columns that depend on each other would have no factor
+/// otherwise.
 constexpr double regularization = 1e-11;
 
 }  // namespace
@@ -88,7 +89,8 @@ void SupportNewton::factor_column(std::size_t c, const std::vector<double>& weig
     }
 }
 
-/// x_hi . x_hk of the pairs at `places`: from the column's own, or anew where it has none.
+/// The products x_hi . x_hk of the pairs at `places`. They are taken from the column's own Gram matrix, or
+/// computed where it has none.
 Eigen::MatrixXd SupportNewton::gram_of(std::size_t c, std::size_t h,
                                        const std::vector<std::size_t>& places) const {
     const auto features = at(stack_.features);

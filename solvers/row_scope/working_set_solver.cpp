@@ -25,7 +25,7 @@ constexpr double largest_reach = 1e5;
 constexpr double reach_growth = 3.0;
 constexpr int quick_newton_steps = 6;
 constexpr double smallest_inner_gap = 1e-16;
-/// Pairs that stay zero leave after each of the first passes; later they stay, so that no pair can come and
+/// Pairs that stay zero leave after each of the first passes. Later they stay, so that no pair can come and
 /// go for ever.
 constexpr int passes_that_shrink = 6;
 
@@ -124,7 +124,7 @@ class WorkingSetSolve {
     SolveResult run();
 
   private:
-    /// A solve on the working set as it is now.
+    /// The state of a solve on the working set as it is now.
     struct InnerSolve {
         WorkingSetModel& model;
         ProximalTurns turns;
@@ -194,7 +194,7 @@ SolveIterate WorkingSetSolve::iterate() const {
     return iterate;
 }
 
-/// Keeps the iterate inside a solve if the checkpoint's turn has come.
+/// Keeps the iterate inside a solve if the checkpoint asks for it.
 void WorkingSetSolve::keep(const InnerSolve& inner, const SpectralProgress& progress) {
     const CheckpointAction turn = options_.checkpoint->turn();
     stopped_ = turn == CheckpointAction::keep_and_stop;
@@ -220,7 +220,7 @@ bool WorkingSetSolve::ends(InnerSolve& inner, const SpectralProgress& progress) 
     const double enough = progress.iterations < first_proximal_step ? inner_gap_ : inner.turns.sufficient_gap;
     if (limited_ || gap <= enough * rule_.scale(inner.model.objective())) return true;
     if (progress.iterations >= inner.turns.next) take_turn(inner.model, progress.iterations, inner.turns);
-    // After the step, so that a run that continues from here is where this one is.
+    // This comes after the step, so that a run that continues from here has the same state as this one.
     if (options_.checkpoint != nullptr) keep(inner, progress);
     return stopped_;
 }
@@ -256,7 +256,7 @@ bool WorkingSetSolve::record(const PassFindings& findings) {
     return reached;
 }
 
-/// Takes up an iterate that a checkpoint has kept. A finished one leaves nothing to do.
+/// Continues from an iterate that a checkpoint has kept. A finished one leaves nothing to do.
 PassFindings WorkingSetSolve::resume(const SolveIterate& known) {
     restore(stack_, known, working_, prices_);
     inner_gap_ = known.inner_gap;
@@ -288,8 +288,8 @@ void WorkingSetSolve::close_checkpoint(bool was_finished) {
     options_.checkpoint->close(stopped_);
 }
 
-/// What the next solve on the working set is asked for, and the pairs that it is on; false if nothing closes
-/// the gap.
+/// Chooses the accuracy of the next solve on the working set, and the pairs that it is on. Returns false if
+/// nothing closes the gap.
 bool WorkingSetSolve::prepare(const PassFindings& findings) {
     // Solve the working set to a part of the gap that is left; more only where nothing else closes it.
     if (findings.entering_pairs > 0)

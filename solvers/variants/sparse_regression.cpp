@@ -24,7 +24,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Gaps below this share of a column's squared norm are rounding.
 constexpr double negligible = 1e-15;
 
-/// A column on its way: its working set with a Gram matrix of its own, its point and both ends of its gap.
+/// The state of a column that is being solved: its working set with a Gram matrix of its own, its point and
+/// both ends of its gap.
 struct Column {
     int column = 0;
     std::vector<int> rows;  ///< in the order in which they entered
@@ -43,13 +44,13 @@ struct Column {
     std::vector<ColumnRound> rounds;
 };
 
-/// A row that pulls at a column from outside its working set.
+/// A row outside the working set of a column that violates optimality.
 struct Pull {
     double strength = 0.0;
     int row = -1;
 };
 
-/// What a pass over all rows finds for one column.
+/// The findings of a pass over all rows for one column.
 struct Survey {
     double strongest = 0.0;  ///< max over all rows of x_i . r, of its magnitude where the sign is free
     double shift = 0.0;      ///< max over all rows of (2 x_i . r - beta)_+ / sum of x_i
@@ -213,8 +214,8 @@ double SparseRegression::descend(Column& column, std::vector<double>& gradient) 
     return largest;
 }
 
-/// The minimum on the support with its signs, or as far towards it as they hold: where columns are alike,
-/// sweeps alone creep. False once the support stands still.
+/// Moves to the minimum on the support with its signs, or as far towards it as the signs hold. Where columns
+/// are alike, sweeps alone make little progress. Returns false once the support no longer changes.
 bool SparseRegression::solve_support(Column& column, std::vector<double>& gradient) const {
     std::vector<std::size_t> support;
     for (std::size_t i = 0; i < column.weights.size(); ++i) {
@@ -231,8 +232,8 @@ bool SparseRegression::solve_support(Column& column, std::vector<double>& gradie
     }
     Eigen::VectorXd step = gram.completeOrthogonalDecomposition().solve(slope);
     const Eigen::VectorXd flat = slope - gram * step;
-    // Dependent columns: along what the Gram matrix does not see, the penalty alone decides, up to a change
-    // of sign.
+    // Columns may be dependent. In directions that the Gram matrix maps to 0, the penalty alone decides, up
+    // to a change of sign.
     const bool is_flat = flat.norm() > 1e-7 * (slope.norm() + beta_);
     if (is_flat) step = flat;
     if (!step.allFinite() || !(step.dot(slope) > 0.0)) return false;
