@@ -75,7 +75,7 @@ BinsOfMeshes scalar_bins(const Comm& comm, Collection& collection, Feature featu
 Eigen::MatrixXd mesh_histograms(const MeshDescription& mesh, const std::vector<int>& bins, int patches,
                                 const RunOptions& options) {
     const HistogramScaling scaling = scaling_of(options.histogram);
-    const Eigen::VectorXd weights = face_weights(mesh, scaling.scaling);
+    const Eigen::VectorXd weights = face_weights(mesh, scaling);
     Eigen::MatrixXd columns(options.bins, patches);
     Eigen::Index next = 0;
     for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
