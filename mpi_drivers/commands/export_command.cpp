@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh_files/obj_writer.hpp"
+#include "io/mesh_files/obj_format.hpp"
 #include "io/mesh_files/vtk_writer.hpp"
 #include "mpi_drivers/finished_runs/face_descriptors.hpp"
 #include "mpi_drivers/finished_runs/finished_shapes.hpp"

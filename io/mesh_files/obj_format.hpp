@@ -1,0 +1,28 @@
+#pragma once
+// Reads Wavefront OBJ files, and writes labelled meshes as OBJ with one material per part.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/mesh/polygon_mesh.hpp"
+
+namespace coseg {
+
+/// Reads the lines "v" and "f" and passes all others over, so that no material file is opened. Vertices may
+/// be numbered backwards from the latest one (-1), and what follows a slash (texture, normal) is left out. A
+/// face of three different vertices or more names each of them once. A backslash at the end of a line joins
+/// the next line to it. mesh_format.hpp says what all readers have in common.
+PolygonMesh read_obj(std::string_view bytes, const std::string& path);
+
+/// Writes `parts` materials part_0, part_1, ... in the colours of part_colors.hpp. Error(output) as
+/// atomic_file.hpp.
+void write_part_materials(const std::string& path, int parts);
+
+/// Writes vertices in their order with 9 digits, and the faces of each part, in their order, under its
+/// material. material_file: as the OBJ names it. Error(output) as there, Error(internal) if labels are not
+/// one a face.
+void write_part_obj(const std::string& path, const std::string& material_file, const PolygonMesh& mesh,
+                    const std::vector<int>& labels);
+
+}  // namespace coseg
