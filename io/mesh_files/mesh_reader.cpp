@@ -10,7 +10,7 @@ namespace coseg {
 namespace {
 
 const MeshFormat& format_of(const std::string& path) {
-    const MeshFormat* format = mesh_format_of(path);
+    const MeshFormat* format = readable_format_of(path);
     if (format != nullptr) return *format;
     const std::string suffix = suffix_of(path);
     throw Error(ExitCode::input, path + ": meshes are read from " + readable_suffixes("and") +
@@ -47,7 +47,7 @@ bool has_area(const PolygonMesh& mesh) {
 
 }  // namespace
 
-bool has_mesh_extension(const std::string& path) { return mesh_format_of(path) != nullptr; }
+bool has_mesh_extension(const std::string& path) { return readable_format_of(path) != nullptr; }
 
 PolygonMesh parse_mesh(std::string_view bytes, const std::string& path) {
     PolygonMesh mesh = format_of(path).read(bytes, path);

@@ -4,17 +4,19 @@
 #include <cstdint>
 #include <cstdio>
 #include <set>
+#include <vector>
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/mesh_files/mesh_limits.hpp"
-#include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/pictures/part_colors.hpp"
 
 namespace coseg {
 
 namespace {
+
+constexpr const char* material_file = "parts.mtl";
 
 class ObjReader {
   public:
@@ -127,23 +129,19 @@ std::string face_line(const PolygonMesh& mesh, std::size_t face) {
 
 PolygonMesh read_obj(std::string_view bytes, const std::string& path) { return ObjReader(bytes, path).run(); }
 
-void write_part_materials(const std::string& path, int parts) {
+void write_obj_materials(const std::string& folder, int parts) {
     std::string text = "# coseg: one material a part\n";
     for (int part = 0; part < parts; ++part) {
         const Color color = part_color(part);
         text += "newmtl part_" + std::to_string(part) + "\n" +
                 numbers("Kd", color[0] / 255.0, color[1] / 255.0, color[2] / 255.0) + "Ka 0 0 0\nKs 0 0 0\n";
     }
-    write_file(path, text);
+    write_file(folder + "/" + material_file, text);
 }
 
-void write_part_obj(const std::string& path, const std::string& material_file, const PolygonMesh& mesh,
-                    const std::vector<int>& labels) {
-    if (labels.size() != static_cast<std::size_t>(mesh.face_count())) {
-        throw Error(ExitCode::internal, path + ": " + std::to_string(labels.size()) + " labels for " +
-                                            std::to_string(mesh.face_count()) + " faces");
-    }
-    std::string text = "# coseg: faces grouped by part\nmtllib " + material_file + "\n";
+void write_obj(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
+    const std::vector<int>& labels = parts_of(arrays, mesh.face_count(), path);
+    std::string text = std::string("# coseg: faces grouped by part\nmtllib ") + material_file + "\n";
     for (const Eigen::Vector3d& p : mesh.vertices) text += numbers("v", p.x(), p.y(), p.z());
     const int parts = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end()) + 1;
     for (int part = 0; part < parts; ++part) {

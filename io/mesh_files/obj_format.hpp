@@ -3,8 +3,8 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "io/mesh_files/face_arrays.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 
 namespace coseg {
@@ -15,14 +15,13 @@ namespace coseg {
 /// the next line to it. mesh_format.hpp says what all readers have in common.
 PolygonMesh read_obj(std::string_view bytes, const std::string& path);
 
-/// Writes `parts` materials part_0, part_1, ... in the colours of part_colors.hpp. Error(output) as
-/// atomic_file.hpp.
-void write_part_materials(const std::string& path, int parts);
+/// Writes FOLDER/parts.mtl: `parts` materials part_0, part_1, ... in the colours of part_colors.hpp.
+/// Error(output) as atomic_file.hpp.
+void write_obj_materials(const std::string& folder, int parts);
 
 /// Writes vertices in their order with 9 digits, and the faces of each part, in their order, under its
-/// material. material_file: as the OBJ names it. Error(output) as there, Error(internal) if labels are not
-/// one a face.
-void write_part_obj(const std::string& path, const std::string& material_file, const PolygonMesh& mesh,
-                    const std::vector<int>& labels);
+/// material, which stands in parts.mtl in the same folder. Error(output) as there, Error(internal) as
+/// parts_of.
+void write_obj(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);
 
 }  // namespace coseg

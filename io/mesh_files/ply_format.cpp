@@ -272,4 +272,8 @@ void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const s
     write_file(path, bytes);
 }
 
+void write_ply(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
+    write_colored_ply(path, mesh, parts_of(arrays, mesh.face_count(), path));
+}
+
 }  // namespace coseg

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/mesh_files/face_arrays.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 
 namespace coseg {
@@ -19,5 +20,8 @@ PolygonMesh read_ply(std::string_view bytes, const std::string& path);
 /// face. Written whole or not at all; Error(output) as in atomic_file.hpp, Error(internal) if the counts
 /// differ.
 void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const std::vector<int>& labels);
+
+/// The same for the parts among the arrays.
+void write_ply(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);
 
 }  // namespace coseg
