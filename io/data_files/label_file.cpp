@@ -1,6 +1,7 @@
 #include "io/data_files/label_file.hpp"
 
 #include <charconv>
+#include <cstdint>
 #include <limits>
 
 #include "io/files/atomic_file.hpp"
@@ -16,7 +17,7 @@ std::vector<int> read_labels(const std::string& path, int expected_count) {
     std::vector<int> labels;
     while (cursor.next_line()) {
         const std::string_view word = cursor.word();
-        long long label = 0;
+        std::int64_t label = 0;
         const bool fits = parse_integer(word, label) && label >= std::numeric_limits<int>::min() &&
                           label <= std::numeric_limits<int>::max();
         if (!fits || !cursor.word().empty()) {

@@ -1,5 +1,6 @@
 #include "io/data_files/name_file.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace coseg {
 namespace {
 
 struct NamedLine {
-    int line = 0;  ///< of the file
+    std::int64_t line = 0;  ///< of the file
     std::vector<std::string> words;
 };
 
@@ -31,7 +32,7 @@ std::vector<NamedLine> lines_with_words(const std::string& bytes, const std::str
 
 /// The label that a line "3 wing" begins with, else -1.
 int leading_label(const NamedLine& line) {
-    long long label = -1;
+    std::int64_t label = -1;
     const bool fits = line.words.size() > 1 && parse_integer(line.words.front(), label) && label >= 0 &&
                       label <= std::numeric_limits<int>::max();
     return fits ? static_cast<int>(label) : -1;

@@ -1,19 +1,39 @@
 #include "io/files/file_contents.hpp"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "src/base/error.hpp"
 
 namespace coseg {
 
+namespace {
+
+constexpr std::size_t block_bytes = std::size_t{1} << 16U;
+
+/// What the file system says; 0 for pipes and others whose size shows only at their end.
+std::size_t expected_bytes(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return 0;
+    const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+    return ignored ? 0 : static_cast<std::size_t>(size);
+}
+
+}  // namespace
+
 std::string read_file(const std::string& path) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
     if (!file) throw Error(ExitCode::input, path + ": cannot be opened (" + std::strerror(errno) + ")");
-    std::string bytes;
-    std::string block(std::size_t{1} << 20U, '\0');
+    // Room for the whole file at once: a string that grows would hold a large mesh twice. The file may have
+    // changed since its size was asked for, so reading goes on until its end.
+    std::string bytes(expected_bytes(path), '\0');
+    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
+    std::string block(block_bytes, '\0');
     while (const std::size_t count = std::fread(block.data(), 1, block.size(), file.get()))
         bytes.append(block, 0, count);
     if (std::ferror(file.get()) != 0) {

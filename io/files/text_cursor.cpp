@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\r' || c == '\n'; }
+/// A space, or one of the control characters \t \n \v \f \r, which follow each other in ASCII.
+bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 }  // namespace
 
@@ -24,7 +25,8 @@ TextCursor::TextCursor(std::string_view text, std::string path, char comment)
 
 void TextCursor::take_line() {
     const std::size_t begin = next_;
-    const std::size_t end = std::min(text_.find_first_of("\r\n", begin), text_.size());
+    std::size_t end = begin;
+    while (end < text_.size() && text_[end] != '\n' && text_[end] != '\r') ++end;
     next_ = std::min(end + 1, text_.size());
     if (end + 1 < text_.size() && text_[end] == '\r' && text_[end + 1] == '\n') ++next_;
     rest_ = text_.substr(begin, end - begin);
@@ -63,7 +65,8 @@ std::string_view TextCursor::word_on_any_line() {
 }
 
 void TextCursor::fail(const std::string& sentence) const {
-    throw Error(ExitCode::input, path_ + ":" + std::to_string(std::max(line_, 1)) + ": " + sentence);
+    throw Error(ExitCode::input,
+                path_ + ":" + std::to_string(std::max<std::int64_t>(line_, 1)) + ": " + sentence);
 }
 
 bool parse_real(std::string_view word, double& value) {
@@ -74,7 +77,7 @@ bool parse_real(std::string_view word, double& value) {
     return cause == std::errc() || cause == std::errc::result_out_of_range;
 }
 
-bool parse_integer(std::string_view word, long long& value) {
+bool parse_integer(std::string_view word, std::int64_t& value) {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     const auto [end, cause] = std::from_chars(word.data(), word.data() + word.size(), value);
     return cause == std::errc() && end == word.data() + word.size() && !word.empty();

@@ -1,6 +1,7 @@
 #pragma once
 // Walks through text line by line and word by word, and knows the line for messages.
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -28,7 +29,8 @@ class TextCursor {
     /// Where the next line begins, in bytes from the start of the text.
     [[nodiscard]] std::size_t next_line_offset() const { return next_; }
 
-    [[nodiscard]] int line() const { return line_; }
+    /// Of the text, counted from 1; 0 before the first.
+    [[nodiscard]] std::int64_t line() const { return line_; }
 
     /// Throws Error(input) "PATH:LINE: sentence".
     [[noreturn]] void fail(const std::string& sentence) const;
@@ -42,13 +44,13 @@ class TextCursor {
     bool joins_lines_ = false;
     std::string_view rest_;  ///< of the current line
     std::size_t next_ = 0;
-    int line_ = 0;
+    std::int64_t line_ = 0;
 };
 
 /// The whole word as a number; false if it is something else. Values too small for a double become 0, too
 /// large ones infinite.
 bool parse_real(std::string_view word, double& value);
-bool parse_integer(std::string_view word, long long& value);
+bool parse_integer(std::string_view word, std::int64_t& value);
 
 /// The word in quotes for messages, shortened and without unprintable bytes.
 std::string quoted(std::string_view word);

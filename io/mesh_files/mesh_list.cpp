@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "io/files/file_contents.hpp"
+#include "io/mesh_files/mesh_format.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/error.hpp"
 
@@ -63,16 +64,15 @@ class MeshListExpander {
         }
         if (cause) fail(where + folder.string() + ": the folder cannot be read (" + cause.message() + ")");
         if (entries_.size() == before) {
-            fail(where + folder.string() +
-                 ": the folder has no .off, .obj, .ply or .stl files; name the folder that holds the meshes");
+            fail(where + folder.string() + ": the folder has no " + readable_suffixes("or") +
+                 " files; name the folder that holds the meshes");
         }
     }
 
     void add_file(const fs::path& path, const std::string& where) {
         if (!has_mesh_extension(path.string())) {
-            fail(where + path.string() +
-                 ": meshes are read from .off, .obj, .ply and .stl files; a list of meshes is given as @" +
-                 path.string());
+            fail(where + path.string() + ": meshes are read from " + readable_suffixes("and") +
+                 " files; a list of meshes is given as @" + path.string());
         }
         std::error_code cause;
         const std::uintmax_t bytes = fs::file_size(path, cause);

@@ -47,30 +47,30 @@ std::vector<double> coordinates(const PolygonMesh& mesh) {
 
 }  // namespace
 
-void write_vtp(const std::string& path, const PolygonMesh& mesh, const CellData& data) {
-    AppendedArrays arrays;
+void write_vtp(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
+    AppendedArrays appended;
     std::string xml =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
         std::to_string(mesh.vertex_count()) +
         "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" " + "NumberOfPolys=\"" +
         std::to_string(mesh.face_count()) + "\">\n";
-    xml += "<Points>\n" + arrays.add<float>("Float32", "points", 3, coordinates(mesh)) + "</Points>\n";
+    xml += "<Points>\n" + appended.add<float>("Float32", "points", 3, coordinates(mesh)) + "</Points>\n";
     const std::vector<int> ends(mesh.offsets.begin() + (mesh.offsets.empty() ? 0 : 1), mesh.offsets.end());
-    xml += "<Polys>\n" + arrays.add<std::int32_t>("Int32", "connectivity", 1, mesh.corners) +
-           arrays.add<std::int32_t>("Int32", "offsets", 1, ends) + "</Polys>\n";
-    xml +=
-        data.labels.empty() ? "<CellData>\n" : "<CellData Scalars=\"" + data.labels.front().first + "\">\n";
-    for (const auto& [name, values] : data.labels) {
+    xml += "<Polys>\n" + appended.add<std::int32_t>("Int32", "connectivity", 1, mesh.corners) +
+           appended.add<std::int32_t>("Int32", "offsets", 1, ends) + "</Polys>\n";
+    xml += arrays.labels.empty() ? "<CellData>\n"
+                                 : "<CellData Scalars=\"" + arrays.labels.front().first + "\">\n";
+    for (const auto& [name, values] : arrays.labels) {
         check_count(path, name, values.size(), mesh);
-        xml += arrays.add<std::int32_t>("Int32", name, 1, values);
+        xml += appended.add<std::int32_t>("Int32", name, 1, values);
     }
-    for (const auto& [name, values] : data.values) {
+    for (const auto& [name, values] : arrays.values) {
         check_count(path, name, values.size(), mesh);
-        xml += arrays.add<float>("Float32", name, 1, values);
+        xml += appended.add<float>("Float32", name, 1, values);
     }
     xml += "</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-    write_file(path, xml + arrays.bytes() + "\n</AppendedData>\n</VTKFile>\n");
+    write_file(path, xml + appended.bytes() + "\n</AppendedData>\n</VTKFile>\n");
 }
 
 void write_vtm(const std::string& path, const std::vector<std::pair<std::string, std::string>>& files) {

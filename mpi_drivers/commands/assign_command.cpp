@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "io/mesh_files/mesh_format.hpp"
 #include "io/reports/report_page.hpp"
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "mpi_drivers/options/command.hpp"
@@ -138,8 +139,9 @@ Command add_assign_command(CLI::App& parent) {
     app->add_option("--to", options->run, "The folder that coseg run was given with --out")
         ->required()
         ->type_name("RUN");
-    app->add_option("input", own.inputs,
-                    "Meshes (OFF, OBJ, PLY, STL), folders of them, or @LIST: a file with a path a line")
+    app->add_option(
+           "input", own.inputs,
+           "Meshes (" + readable_formats() + "), folders of them, or @LIST: a file with a path a line")
         ->required()
         ->type_name("MESH|DIRECTORY|@LIST");
     app->add_option("--out", own.out, "Folder for the results; must be new or empty unless --force")

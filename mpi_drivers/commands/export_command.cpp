@@ -1,4 +1,4 @@
-// `coseg export`: a finished run's shapes for ParaView (VTK) and for modelling programs (OBJ).
+// `coseg export`: a finished run's shapes in any format that is written, for ParaView and modelling programs.
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh_files/obj_writer.hpp"
-#include "io/mesh_files/vtk_writer.hpp"
+#include "io/mesh_files/mesh_format.hpp"
 #include "mpi_drivers/finished_runs/face_descriptors.hpp"
 #include "mpi_drivers/finished_runs/finished_shapes.hpp"
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
@@ -50,47 +49,78 @@ PolygonMesh on_grid(const LabelledMesh& shape, int shapes, const View& front) {
     return placed;
 }
 
-CellData cell_data(const FinishedRun& run, const LabelledMesh& shape, bool with_descriptors) {
-    CellData data;
-    data.labels = {{"part", shape.part}, {"patch", shape.patch}};
-    if (!shape.truth.empty()) data.labels.emplace_back("truth", shape.truth);
-    if (!with_descriptors) return data;
+FaceArrays face_arrays(const FinishedRun& run, const LabelledMesh& shape, bool with_descriptors) {
+    FaceArrays arrays;
+    arrays.labels = {{"part", shape.part}, {"patch", shape.patch}};
+    if (!shape.truth.empty()) arrays.labels.emplace_back("truth", shape.truth);
+    if (!with_descriptors) return arrays;
     const FaceDescriptors values = face_descriptors(run, shape);
-    for (std::size_t h = 0; h < values.size(); ++h) data.values.emplace_back(feature_names[h], values[h]);
-    return data;
+    for (std::size_t h = 0; h < values.size(); ++h) arrays.values.emplace_back(feature_names[h], values[h]);
+    return arrays;
 }
 
-void export_vtk(const Comm& world, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
-                const ExportOptions& options, const std::string& out) {
+/// What is exported, and into which format.
+struct Export {
+    const FinishedRun& run;
+    const std::vector<LabelledMesh>& shapes;  ///< of this rank
+    const MeshFormat& format;
+    std::string folder;
+    bool with_descriptors = true;
+
+    [[nodiscard]] bool has_collection() const { return format.write_collection != nullptr; }
+    [[nodiscard]] std::string file(const std::string& name) const {
+        return name + std::string(format.suffix);
+    }
+};
+
+/// Collective: the view in which the grid of a collection is laid out.
+View view_of_grid(const Comm& world, const std::vector<LabelledMesh>& shapes) {
     std::vector<DrawnShape> outlines;
     for (const LabelledMesh& shape : shapes)
         outlines.push_back(
             {shape.number, "", picture_mesh(shape.mesh, std::vector<Color>(shape.part.size()))});
-    const View front = agree_on_view(world, outlines, {"front", "auto"});
-    agree(world, [&] {
-        for (const LabelledMesh& shape : shapes) {
-            const CellData data = cell_data(run, shape, options.descriptors);
-            write_vtp(out + "/vtk/" + shape.name + ".vtp", shape.mesh, data);
-            write_vtp(out + "/vtk/grid/" + shape.name + ".vtp",
-                      on_grid(shape, static_cast<int>(run.shapes.size()), front), data);
-        }
-        if (!world.is_root()) return;
-        std::vector<std::pair<std::string, std::string>> files;
-        for (const FinishedShape& shape : run.shapes)
-            files.emplace_back(shape.name, "grid/" + shape.name + ".vtp");
-        write_vtm(out + "/vtk/collection.vtm", files);
-        std::cout << out << "/vtk/collection.vtm" << std::endl;
-    });
+    return agree_on_view(world, outlines, {"front", "auto"});
 }
 
-void export_obj(const Comm& world, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
-                const std::string& out) {
+/// The shapes of this rank in a file each, and again in the grid if the format has a file that opens many.
+void write_shapes(const Export& task, const View& front) {
+    for (const LabelledMesh& shape : task.shapes) {
+        const FaceArrays arrays = face_arrays(task.run, shape, task.with_descriptors);
+        task.format.write(task.folder + "/" + task.file(shape.name), shape.mesh, arrays);
+        if (!task.has_collection()) continue;
+        task.format.write(task.folder + "/grid/" + task.file(shape.name),
+                          on_grid(shape, static_cast<int>(task.run.shapes.size()), front), arrays);
+    }
+}
+
+void write_collection(const Export& task) {
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const FinishedShape& shape : task.run.shapes)
+        files.emplace_back(shape.name, "grid/" + task.file(shape.name));
+    const std::string path = task.folder + "/collection" + std::string(task.format.collection_suffix);
+    task.format.write_collection(path, files);
+    std::cout << path << std::endl;
+}
+
+/// Collective.
+void export_shapes(const Comm& world, const Export& task) {
     agree(world, [&] {
-        for (const LabelledMesh& shape : shapes)
-            write_part_obj(out + "/obj/" + shape.name + ".obj", "parts.mtl", shape.mesh, shape.part);
         if (!world.is_root()) return;
-        write_part_materials(out + "/obj/parts.mtl", run.parts);
-        std::cout << out << "/obj" << std::endl;
+        const fs::path folder = task.has_collection() ? task.folder + "/grid" : task.folder;
+        std::error_code cause;
+        fs::create_directories(folder, cause);
+        if (cause)
+            throw Error(ExitCode::output, folder.string() + ": cannot be made (" + cause.message() + ")");
+    });
+    const View front = task.has_collection() ? view_of_grid(world, task.shapes) : View{};
+    agree(world, [&] {
+        write_shapes(task, front);
+        if (!world.is_root()) return;
+        if (task.format.write_shared != nullptr) task.format.write_shared(task.folder, task.run.parts);
+        if (task.has_collection())
+            write_collection(task);
+        else
+            std::cout << task.folder << std::endl;
     });
 }
 
@@ -99,16 +129,10 @@ void export_run(const ExportOptions& options, const Comm& world) {
     const FinishedRun run = read_run(world, options.input.folder);
     const std::vector<LabelledMesh> shapes = read_shapes(world, run, options.input);
     const std::string out = options.out.empty() ? options.input.folder : options.out;
-    for (const std::string& format : options.formats) {
-        agree(world, [&] {
-            if (!world.is_root()) return;
-            const fs::path folder = fs::path(out) / (format == "vtk" ? "vtk/grid" : "obj");
-            std::error_code cause;
-            fs::create_directories(folder, cause);
-            if (cause)
-                throw Error(ExitCode::output, folder.string() + ": cannot be made (" + cause.message() + ")");
-        });
-        format == "vtk" ? export_vtk(world, run, shapes, options, out) : export_obj(world, run, shapes, out);
+    for (const std::string& name : options.formats) {
+        const MeshFormat& format = writable_format(name);
+        export_shapes(world,
+                      {run, shapes, format, out + "/" + name, options.descriptors && format.keeps_values});
     }
 }
 
@@ -122,11 +146,11 @@ Command add_export_command(CLI::App& parent) {
         ->required();
     app->add_option("--to", options->formats,
                     "vtk (a VTP per shape with parts, patches and descriptors, and collection.vtm with all "
-                    "of them in a "
-                    "grid), obj (one material per part), or both with a comma")
+                    "of them in a grid), obj (one material per part), ply (one colour per part), or several "
+                    "with commas")
         ->delimiter(',')
         ->capture_default_str()
-        ->check(CLI::IsMember({"vtk", "obj"}));
+        ->check(CLI::IsMember(writable_formats()));
     app->add_flag("--descriptors,!--no-descriptors", options->descriptors,
                   "Compute the descriptors again for vtk (on by default)");
     app->add_option("--truth", options->input.truth,
@@ -135,7 +159,7 @@ Command add_export_command(CLI::App& parent) {
                     "Where the meshes are now, if not where the run found them: files, folders or @LIST")
         ->type_name("MESH|DIRECTORY|@LIST");
     app->add_option("--out", options->out,
-                    "Folder to write into: vtk/ and obj/ in it; RESULT itself if not given");
+                    "Folder to write into: vtk/, obj/, ply/ in it; RESULT itself if not given");
     app->footer("Example: mpirun -n 2 coseg export result --to vtk,obj");
     return {app, [options](const Invocation& invocation) { export_run(*options, invocation.world); }};
 }

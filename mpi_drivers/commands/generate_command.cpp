@@ -11,7 +11,7 @@
 
 #include "io/data_files/label_file.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/mesh_files/off_writer.hpp"
+#include "io/mesh_files/off_format.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "src/base/error.hpp"
 #include "src/families/shape_families.hpp"

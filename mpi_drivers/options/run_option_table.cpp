@@ -3,6 +3,7 @@
 #include <sstream>
 #include <type_traits>
 
+#include "io/mesh_files/mesh_format.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
 #include "solvers/variants/subspace_variants.hpp"
 #include "src/descriptors/feature.hpp"
@@ -97,8 +98,9 @@ void RunOptionTable::add_input_and_output(CLI::App& app, OptionSet set) {
         ->check(CLI::IsMember(preset_names()))
         ->default_str("default")
         ->group(in_out_group);
-    app.add_option("input", options_.inputs,
-                   "Meshes (OFF, OBJ, PLY, STL), folders of them, or @LIST: a file with a path a line")
+    app.add_option(
+           "input", options_.inputs,
+           "Meshes (" + readable_formats() + "), folders of them, or @LIST: a file with a path a line")
         ->required()
         ->type_name("MESH|DIRECTORY|@LIST");
     if (set == OptionSet::run) add_results(app);

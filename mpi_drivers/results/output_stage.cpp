@@ -3,7 +3,7 @@
 #include <sys/resource.h>
 
 #include "io/data_files/label_file.hpp"
-#include "io/mesh_files/ply_writer.hpp"
+#include "io/mesh_files/ply_format.hpp"
 #include "io/reports/affinity_image.hpp"
 #include "io/reports/png_writer.hpp"
 #include "io/reports/report.hpp"

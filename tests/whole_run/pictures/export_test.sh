@@ -12,6 +12,8 @@ grep -q collection.vtm "$work/out" || fail "export does not say where the collec
 [[ $(head -n 2 "$work/result/obj/pliers_0000.obj" | tail -n 1) == "mtllib parts.mtl" ]] || fail "OBJ without materials"
 [[ $(grep -c '^f ' "$work/result/obj/pliers_0000.obj") -eq $(wc -l <"$work/result/labels/pliers_0000.seg") ]] || fail "faces of the OBJ"
 [[ $(grep -c newmtl "$work/result/obj/parts.mtl") -eq 3 ]] || fail "materials"
+"$COSEG" export "$work/result" --to ply --out "$work/again" >"$work/out"
+cmp "$work/result/ply/pliers_0001.ply" "$work/again/ply/pliers_0001.ply" || fail "the exported PLY is not the run's"
 refuses "an unknown format" 2 "stl" "$COSEG" export "$work/result" --to stl
 
 python=/usr/bin/python3

@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 
-#include "io/mesh_files/off_writer.hpp"
+#include "io/mesh_files/off_format.hpp"
 #include "src/base/error.hpp"
 #include "src/base/seeded_random.hpp"
 #include "src/repair/mesh_repair.hpp"
@@ -54,8 +55,8 @@ void put(std::string& bytes, T value, bool big_endian = false) {
     bytes.append(raw, sizeof(T));
 }
 
-/// The pyramid with double coordinates, 16-bit indices and a list before the corners: all that OpenMesh
-/// misreads.
+/// The pyramid with double coordinates, 16-bit indices and a list before the corners, which other readers
+/// misread.
 std::string pyramid_binary_ply(bool big_endian) {
     std::string bytes =
         std::string("ply\nformat ") + (big_endian ? "binary_big_endian" : "binary_little_endian") +
@@ -81,18 +82,30 @@ std::string pyramid_binary_ply(bool big_endian) {
     return bytes;
 }
 
-std::string binary_stl(const TriMesh& mesh) {
+using Facet = std::array<Eigen::Vector3f, 3>;
+
+std::string binary_stl_of(const std::vector<Facet>& facets) {
     std::string bytes(80, 's');
-    put(bytes, static_cast<std::uint32_t>(mesh.face_count()));
-    for (int f = 0; f < mesh.face_count(); ++f) {
+    put(bytes, static_cast<std::uint32_t>(facets.size()));
+    for (const Facet& facet : facets) {
         for (int k = 0; k < 3; ++k) put(bytes, 0.0F);
-        for (int k = 0; k < 3; ++k) {
-            for (int axis = 0; axis < 3; ++axis)
-                put(bytes, static_cast<float>(mesh.vertices(axis, mesh.faces(k, f))));
+        for (const Eigen::Vector3f& corner : facet) {
+            for (const float value : corner) put(bytes, value);
         }
         put(bytes, std::uint16_t{0});
     }
     return bytes;
+}
+
+std::string binary_stl(const TriMesh& mesh) {
+    std::vector<Facet> facets;
+    for (int f = 0; f < mesh.face_count(); ++f) {
+        const auto corner = [&](int k) {
+            return Eigen::Vector3f(mesh.vertices.col(mesh.faces(k, f)).cast<float>());
+        };
+        facets.push_back({corner(0), corner(1), corner(2)});
+    }
+    return binary_stl_of(facets);
 }
 
 void expect_pyramid(const PolygonMesh& mesh) {
@@ -155,6 +168,36 @@ TEST(MeshReader, FacesThatRepeatAVertexKeepTheirPlace) {
     const PolygonMesh stl = read_mesh(folder.file("a.stl", triangle_stl));
     EXPECT_EQ(stl.offsets, (std::vector<int>{0, 3, 6, 9}));
     EXPECT_EQ(stl.corners, (std::vector<int>{0, 1, 2, 1, 1, 2, 1, 3, 2}));
+}
+
+/// Formats differ here: only OBJ faces of three different vertices or more lose their repeats.
+TEST(MeshReader, ObjFacesNameAVertexOnce) {
+    const TemporaryFolder folder;
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    const PolygonMesh obj =
+        read_mesh(folder.file("a.obj", square + "f 1 2 3 3\nf 1 3 1 4 3\nf 1 2 2 1\nf 1 2 3 4\n"));
+    EXPECT_EQ(obj.offsets, (std::vector<int>{0, 3, 6, 10, 14}));
+    EXPECT_EQ(obj.corners, (std::vector<int>{0, 1, 2, 0, 2, 3, 0, 1, 1, 0, 0, 1, 2, 3}));
+    const PolygonMesh off =
+        read_mesh(folder.file("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 2\n"));
+    EXPECT_EQ(off.corners, (std::vector<int>{0, 1, 2, 2}));
+}
+
+TEST(MeshReader, StlVerticesOfFacetsWithoutAreaComeLast) {
+    const TemporaryFolder folder;
+    const std::string bytes =
+        binary_stl_of({Facet{{{5, 5, 5}, {5, 5, 5}, {6, 5, 5}}}, Facet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}});
+    const PolygonMesh mesh = read_mesh(folder.file("a.stl", bytes));
+    EXPECT_EQ(mesh.corners, (std::vector<int>{3, 3, 4, 0, 1, 2}));
+    EXPECT_EQ(mesh.vertices[3], Eigen::Vector3d(5, 5, 5));
+}
+
+TEST(MeshReader, StlTextIsRoundedLikeBinary) {
+    const TemporaryFolder folder;
+    std::string text = triangle_stl;
+    for (std::size_t i = text.find("vertex 1 0"); i != std::string::npos; i = text.find("vertex 1 0", i))
+        text.replace(i, 8, "vertex 1.1");
+    EXPECT_EQ(read_mesh(folder.file("a.stl", text)).vertices[1].x(), static_cast<double>(1.1F));
 }
 
 TEST(MeshReader, BinaryStlComesBackWeldedAndInOrder) {

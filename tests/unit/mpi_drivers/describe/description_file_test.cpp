@@ -5,7 +5,7 @@
 #include <array>
 
 #include "io/files/atomic_file.hpp"
-#include "io/mesh_files/off_writer.hpp"
+#include "io/mesh_files/off_format.hpp"
 #include "mpi_drivers/describe/kept_description.hpp"
 #include "mpi_drivers/optimise/solver_checkpoint_files.hpp"
 #include "src/families/shape_families.hpp"

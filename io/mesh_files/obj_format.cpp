@@ -1,0 +1,157 @@
+#include "io/mesh_files/obj_format.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <set>
+#include <vector>
+
+#include "io/files/atomic_file.hpp"
+#include "io/files/text_cursor.hpp"
+#include "io/mesh_files/mesh_limits.hpp"
+#include "src/base/index.hpp"
+#include "src/pictures/part_colors.hpp"
+
+namespace coseg {
+
+namespace {
+
+constexpr const char* material_file = "parts.mtl";
+
+class ObjReader {
+  public:
+    ObjReader(std::string_view bytes, const std::string& path) : cursor_(bytes, path, '#') {
+        cursor_.join_lines_at_backslash();
+    }
+
+    PolygonMesh run() {
+        if (!cursor_.next_line()) cursor_.fail("the file is empty; export the mesh again");
+        mesh_.offsets.push_back(0);
+        do {
+            const std::string_view keyword = cursor_.word();
+            if (keyword == "v") read_vertex();
+            if (keyword == "f") read_face();
+        } while (cursor_.next_line());
+        if (highest_index_ >= vertex_count()) {
+            cursor_.fail(bad_index(face_of_highest_index_, highest_index_, vertex_count()));
+        }
+        return std::move(mesh_);
+    }
+
+  private:
+    [[nodiscard]] std::int64_t vertex_count() const { return std::ssize(mesh_.vertices); }
+    [[nodiscard]] std::int64_t face_count() const { return std::ssize(mesh_.offsets) - 1; }
+
+    void read_vertex() {
+        if (vertex_count() >= most_vertices) cursor_.fail(too_many_vertices);
+        Eigen::Vector3d point;
+        for (int k = 0; k < 3; ++k) {
+            const std::string_view word = cursor_.word();
+            if (!parse_real(word, point[k])) {
+                cursor_.fail("vertex " + std::to_string(vertex_count()) +
+                             " needs three coordinates, but one is " + quoted(word));
+            }
+            if (!is_usable_coordinate(point[k])) cursor_.fail(bad_coordinate(vertex_count(), point[k]));
+        }
+        mesh_.vertices.push_back(point);
+    }
+
+    void read_face() {
+        for (std::string_view word = cursor_.word(); !word.empty(); word = cursor_.word()) {
+            mesh_.corners.push_back(vertex_number(word));
+        }
+        if (std::ssize(mesh_.corners) == mesh_.offsets.back())
+            cursor_.fail("face " + std::to_string(face_count()) + " has no corners; correct the line");
+        drop_repeated_corners();
+        if (std::ssize(mesh_.corners) > most_corners) cursor_.fail(too_many_corners);
+        mesh_.offsets.push_back(static_cast<int>(mesh_.corners.size()));
+    }
+
+    /// Some exporters write a triangle as a quadrangle that names a vertex twice. A face of three different
+    /// vertices or more names each of them once, where it first stood; one of fewer keeps its corners as they
+    /// are.
+    void drop_repeated_corners() {
+        const auto begin = mesh_.corners.begin() + mesh_.offsets.back();
+        sorted_.assign(begin, mesh_.corners.end());
+        std::sort(sorted_.begin(), sorted_.end());
+        const auto different = std::unique(sorted_.begin(), sorted_.end()) - sorted_.begin();
+        if (different < 3 || different == mesh_.corners.end() - begin) return;
+        std::set<int> seen;
+        auto kept = begin;
+        for (auto corner = begin; corner != mesh_.corners.end(); ++corner) {
+            if (seen.insert(*corner).second) *kept++ = *corner;
+        }
+        mesh_.corners.erase(kept, mesh_.corners.end());
+    }
+
+    /// Vertices are counted from 1, or from -1 backwards. A face may come before its vertices, so that too
+    /// high numbers show at the end of the file only.
+    int vertex_number(std::string_view word) {
+        std::int64_t index = 0;
+        if (!parse_integer(word.substr(0, word.find('/')), index)) {
+            cursor_.fail("face " + std::to_string(face_count()) + " has " + quoted(word) +
+                         " where a vertex number should stand");
+        }
+        const std::int64_t number = index < 0 ? vertex_count() + index : index - 1;
+        if (number < 0 || number >= most_vertices) {
+            cursor_.fail("face " + std::to_string(face_count()) + " refers to vertex " +
+                         std::to_string(index) + " of the " + std::to_string(vertex_count()) +
+                         " so far (OBJ counts from 1); correct the face");
+        }
+        if (number > highest_index_) {
+            highest_index_ = number;
+            face_of_highest_index_ = face_count();
+        }
+        return static_cast<int>(number);
+    }
+
+    TextCursor cursor_;
+    PolygonMesh mesh_;
+    std::vector<int> sorted_;  ///< the different corners of the face at hand
+    std::int64_t highest_index_ = -1;
+    std::int64_t face_of_highest_index_ = 0;
+};
+
+std::string numbers(const char* keyword, double a, double b, double c) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%s %.9g %.9g %.9g\n", keyword, a, b, c);
+    return text;
+}
+
+std::string face_line(const PolygonMesh& mesh, std::size_t face) {
+    std::string line = "f";
+    for (int k = mesh.offsets[face]; k < mesh.offsets[face + 1]; ++k)
+        line += " " + std::to_string(mesh.corners[at(k)] + 1);
+    return line + "\n";
+}
+
+}  // namespace
+
+PolygonMesh read_obj(std::string_view bytes, const std::string& path) { return ObjReader(bytes, path).run(); }
+
+void write_obj_materials(const std::string& folder, int parts) {
+    std::string text = "# coseg: one material a part\n";
+    for (int part = 0; part < parts; ++part) {
+        const Color color = part_color(part);
+        text += "newmtl part_" + std::to_string(part) + "\n" +
+                numbers("Kd", color[0] / 255.0, color[1] / 255.0, color[2] / 255.0) + "Ka 0 0 0\nKs 0 0 0\n";
+    }
+    write_file(folder + "/" + material_file, text);
+}
+
+void write_obj(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
+    const std::vector<int>& labels = parts_of(arrays, mesh.face_count(), path);
+    std::string text = std::string("# coseg: faces grouped by part\nmtllib ") + material_file + "\n";
+    for (const Eigen::Vector3d& p : mesh.vertices) text += numbers("v", p.x(), p.y(), p.z());
+    const int parts = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end()) + 1;
+    for (int part = 0; part < parts; ++part) {
+        if (std::find(labels.begin(), labels.end(), part) == labels.end()) continue;
+        text += "g part_" + std::to_string(part) + "\nusemtl part_" + std::to_string(part) + "\n";
+        for (std::size_t f = 0; f < labels.size(); ++f) {
+            if (labels[f] == part) text += face_line(mesh, f);
+        }
+    }
+    write_file(path, text);
+}
+
+}  // namespace coseg

@@ -1,0 +1,27 @@
+#pragma once
+// Reads Wavefront OBJ files, and writes labelled meshes as OBJ with one material per part.
+
+#include <string>
+#include <string_view>
+
+#include "io/mesh_files/face_arrays.hpp"
+#include "src/mesh/polygon_mesh.hpp"
+
+namespace coseg {
+
+/// Reads the lines "v" and "f" and passes all others over, so that no material file is opened. Vertices may
+/// be numbered backwards from the latest one (-1), and what follows a slash (texture, normal) is left out. A
+/// face of three different vertices or more names each of them once. A backslash at the end of a line joins
+/// the next line to it. mesh_format.hpp says what all readers have in common.
+PolygonMesh read_obj(std::string_view bytes, const std::string& path);
+
+/// Writes FOLDER/parts.mtl: `parts` materials part_0, part_1, ... in the colours of part_colors.hpp.
+/// Error(output) as atomic_file.hpp.
+void write_obj_materials(const std::string& folder, int parts);
+
+/// Writes vertices in their order with 9 digits, and the faces of each part, in their order, under its
+/// material, which stands in parts.mtl in the same folder. Error(output) as there, Error(internal) as
+/// parts_of.
+void write_obj(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);
+
+}  // namespace coseg

@@ -1,0 +1,42 @@
+#pragma once
+// The header of a PLY file: which elements follow, and what each of them holds.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace coseg {
+
+enum class PlyScalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct PlyProperty {
+    std::string name;
+    PlyScalar type = PlyScalar::float32;
+    std::optional<PlyScalar> list_count;  ///< the type of the count if the property is a list
+};
+
+struct PlyElement {
+    std::string name;
+    std::int64_t count = 0;  ///< 0 .. 2^31 - 1, as the header promises
+    std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+    bool is_binary = false;
+    bool is_big_endian = false;
+    std::vector<PlyElement> elements;
+    std::size_t data_offset = 0;  ///< where the data begins, in bytes
+    std::int64_t lines = 0;
+};
+
+/// Throws Error(input) naming path and line for a header that is cut short or not understood.
+PlyHeader read_ply_header(std::string_view bytes, const std::string& path);
+
+/// Bytes that an element takes at least: of a list its count, of a number in ASCII a digit and what parts it
+/// from the next.
+std::size_t least_bytes(const PlyElement& element, bool is_binary);
+
+}  // namespace coseg

@@ -1,0 +1,48 @@
+#include "io/mesh_files/corner_welder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+
+#include "src/base/seeded_random.hpp"
+
+namespace coseg {
+namespace {
+
+TEST(CornerWelder, NumbersPositionsAsTheyAreFirstMet) {
+    CornerWelder welder;
+    EXPECT_EQ(welder.number_of({1, 2, 3}), 0);
+    EXPECT_EQ(welder.number_of({3, 2, 1}), 1);
+    EXPECT_EQ(welder.number_of({1, 2, 3}), 0);
+    EXPECT_EQ(welder.number_of({1, 2, std::nextafter(3.0F, 4.0F)}), 2);
+    const std::vector<Eigen::Vector3d> vertices = welder.take_vertices();
+    ASSERT_EQ(vertices.size(), 3U);
+    EXPECT_EQ(vertices[1], Eigen::Vector3d(3, 2, 1));
+}
+
+TEST(CornerWelder, ZerosOfEitherSignAndTinyNumbersAreOne) {
+    CornerWelder welder;
+    EXPECT_EQ(welder.number_of({0.0F, 1, 0.0F}), 0);
+    EXPECT_EQ(welder.number_of({-0.0F, 1, 0.0F}), 0);
+    EXPECT_EQ(welder.number_of({1e-40F, 1, -std::numeric_limits<float>::min()}), 0);
+    EXPECT_EQ(welder.number_of({1e-30F, 1, 0.0F}), 1);
+    EXPECT_TRUE(is_same_position({0, 0, -0.0F}, {0, 1e-41F, 0}));
+    EXPECT_FALSE(is_same_position({0, 0, 0}, {0, 0, 1e-30F}));
+}
+
+TEST(CornerWelder, AgreesWithAnOrderedMapOnManyPositions) {
+    CornerWelder welder;
+    std::map<std::array<float, 3>, int> numbers;
+    SeededStream random(3);
+    for (int i = 0; i < 100000; ++i) {
+        std::array<float, 3> p{};
+        for (float& value : p) value = static_cast<float>(random() % 33) / 7.0F;
+        const int expected = numbers.try_emplace(p, static_cast<int>(numbers.size())).first->second;
+        ASSERT_EQ(welder.number_of({p[0], p[1], p[2]}), expected);
+    }
+    EXPECT_EQ(welder.take_vertices().size(), numbers.size());
+}
+
+}  // namespace
+}  // namespace coseg

@@ -1,0 +1,179 @@
+#include "io/mesh_files/mesh_format.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "io/mesh_files/mesh_limits.hpp"
+#include "io/mesh_files/mesh_reader.hpp"
+#include "src/base/seeded_random.hpp"
+#include "tests/support/errors.hpp"
+#include "tests/support/manifold.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace coseg {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(MeshFormat, SuffixesAreLowerCaseAndUnique) {
+    std::set<std::string_view> suffixes;
+    for (const MeshFormat& format : mesh_formats()) {
+        EXPECT_EQ(format.suffix, suffix_of("mesh" + std::string(format.suffix)));
+        EXPECT_TRUE(suffixes.insert(format.suffix).second) << format.suffix;
+        EXPECT_TRUE(format.read != nullptr || format.write != nullptr) << format.name;
+        if (format.read == nullptr) continue;
+        EXPECT_EQ(readable_format_of("folder.off/a.b" + std::string(format.suffix))->name, format.name);
+    }
+    EXPECT_EQ(readable_format_of("A.StL")->name, "STL");
+    EXPECT_EQ(readable_format_of("a.vtp"), nullptr);
+    EXPECT_EQ(readable_format_of("a.off.txt"), nullptr);
+    EXPECT_EQ(readable_format_of("off"), nullptr);
+    EXPECT_EQ(readable_format_of(".off"), nullptr);  // a hidden file without a suffix
+}
+
+TEST(MeshFormat, ListsForMessages) {
+    EXPECT_EQ(readable_formats(), "OFF, OBJ, PLY, STL");
+    EXPECT_EQ(readable_suffixes("or"), ".off, .obj, .ply or .stl");
+}
+
+TEST(MeshFormat, WhatIsWrittenReadsBack) {
+    const test::TemporaryFolder folder;
+    const PolygonMesh mesh = test::polygons_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.75}},
+                                               {{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+    const FaceArrays arrays{{{"part", {0, 0, 1, 1, 2}}, {"patch", {4, 3, 2, 1, 0}}},
+                            {{"height", {0, 1, 2, 3, 4}}}};
+    for (const std::string& name : writable_formats()) {
+        SCOPED_TRACE(name);
+        const MeshFormat& format = writable_format(name);
+        const std::string path = folder.path("mesh" + std::string(format.suffix));
+        format.write(path, mesh, arrays);
+        EXPECT_GT(fs::file_size(path), 100U);
+        if (format.write_shared != nullptr) format.write_shared(folder.path(), 3);
+        const test::Caught caught = test::error_of([&] {
+            format.write(path, mesh, {{{"part", {0, 1}}}, {}});
+        });
+        EXPECT_EQ(caught.code, ExitCode::internal);
+        if (format.read == nullptr) continue;
+        const PolygonMesh back = read_mesh(path);
+        EXPECT_EQ(back.offsets, mesh.offsets);
+        EXPECT_EQ(back.corners, mesh.corners);
+        EXPECT_EQ(back.vertices, mesh.vertices);
+    }
+    EXPECT_EQ(writable_formats(), (std::vector<std::string>{"obj", "ply", "vtk"}));
+    EXPECT_NE(test::content_of(folder.path("mesh.obj")).find("mtllib parts.mtl\n"), std::string::npos);
+    EXPECT_NE(test::content_of(folder.path("parts.mtl")).find("newmtl part_2\n"), std::string::npos);
+    EXPECT_EQ(test::error_of([] { writable_format("stl"); }).code, ExitCode::internal);
+}
+
+const fs::path source_folder =
+    fs::path(__FILE__).parent_path().parent_path().parent_path().parent_path().parent_path();
+
+TEST(MeshFormat, ScriptsThatCountMeshesKnowAllSuffixes) {
+    for (const char* script : {"jobs/submit.sh", "jobs/scaling.py", "bench/assign.py"}) {
+        const std::string text = test::content_of((source_folder / script).string());
+        for (const MeshFormat& format : mesh_formats()) {
+            if (format.read == nullptr) continue;
+            EXPECT_NE(text.find(format.suffix.substr(1)), std::string::npos)
+                << script << " " << format.suffix;
+        }
+    }
+}
+
+struct CorpusFile {
+    std::string name;
+    std::string bytes;
+    bool is_readable;
+};
+
+/// tests/corpus/mesh_files, described in its README.md.
+std::vector<CorpusFile> corpus() {
+    std::vector<CorpusFile> files;
+    for (const std::string folder : {"read", "refused"}) {
+        for (const fs::directory_entry& entry :
+             fs::directory_iterator(source_folder / "tests" / "corpus" / "mesh_files" / folder)) {
+            files.push_back({entry.path().filename().string(), test::content_of(entry.path().string()),
+                             folder == "read"});
+        }
+    }
+    std::sort(files.begin(), files.end(), [](const CorpusFile& a, const CorpusFile& b) {
+        return std::tie(a.is_readable, a.name) < std::tie(b.is_readable, b.name);
+    });
+    return files;
+}
+
+void expect_invariants(const PolygonMesh& mesh) {
+    ASSERT_GE(mesh.face_count(), 1);
+    ASSERT_EQ(mesh.offsets.front(), 0);
+    ASSERT_EQ(mesh.offsets.back(), std::ssize(mesh.corners));
+    ASSERT_TRUE(std::is_sorted(mesh.offsets.begin(), mesh.offsets.end(), std::less_equal<>()));
+    for (const int corner : mesh.corners) ASSERT_TRUE(corner >= 0 && corner < mesh.vertex_count()) << corner;
+    for (const Eigen::Vector3d& p : mesh.vertices) {
+        for (const double value : p) ASSERT_TRUE(is_usable_coordinate(value)) << value;
+    }
+}
+
+/// Whether it was read; anything but a sound mesh or a refusal that begins with the path fails the test.
+bool is_read_or_refused(const std::string& name, const std::string& bytes) {
+    PolygonMesh mesh;
+    const test::Caught caught = test::error_of([&] { mesh = parse_mesh(bytes, name); });
+    if (caught.threw) {
+        EXPECT_EQ(caught.code, ExitCode::input);
+        EXPECT_TRUE(caught.sentence.starts_with(name + ":")) << caught.sentence;
+        EXPECT_GT(caught.sentence.size(), name.size() + 10);
+    } else {
+        expect_invariants(mesh);
+    }
+    return !caught.threw;
+}
+
+TEST(MeshFormat, CorpusIsReadAndRefusedAsItsFoldersSay) {
+    const std::vector<CorpusFile> files = corpus();
+    ASSERT_GT(files.size(), 100U);
+    for (const CorpusFile& file : files) {
+        SCOPED_TRACE(file.name);
+        EXPECT_EQ(is_read_or_refused(file.name, file.bytes), file.is_readable);
+    }
+    for (const MeshFormat& format : mesh_formats()) {
+        if (format.read == nullptr) continue;
+        for (const bool is_readable : {true, false}) {
+            EXPECT_GE(std::count_if(files.begin(), files.end(),
+                                    [&](const CorpusFile& file) {
+                                        return file.is_readable == is_readable &&
+                                               suffix_of(file.name) == format.suffix;
+                                    }),
+                      5)
+                << format.name;
+        }
+    }
+}
+
+TEST(MeshFormat, CorpusWithAByteChangedOrCutOffAnywhere) {
+    constexpr std::size_t small = 1000;
+    constexpr int changes_per_byte = 3;
+    const std::string signs = "0123456789-+. \n\\e/#fv";
+    SeededStream random(1);
+    for (const CorpusFile& file : corpus()) {
+        if (file.bytes.size() > small) continue;
+        SCOPED_TRACE(file.name);
+        for (std::size_t i = 0; i < file.bytes.size(); ++i) {
+            is_read_or_refused(file.name, file.bytes.substr(0, i));
+            for (int change = 0; change < changes_per_byte; ++change) {
+                std::string bytes = file.bytes;
+                if (change == 0)
+                    bytes[i] = static_cast<char>(bytes[i] ^ (1 << random() % 8));
+                else
+                    bytes[i] = change == 1 ? static_cast<char>(random()) : signs[random() % signs.size()];
+                is_read_or_refused(file.name, bytes);
+                if (HasFatalFailure() || HasNonfatalFailure()) return;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace coseg
