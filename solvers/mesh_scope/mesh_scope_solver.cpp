@@ -288,7 +288,7 @@ void make_room(const SolvedTile& tile, SparseCoefficients& sparse) {
     const auto columns = static_cast<double>(sparse.offsets.size() + tile.offsets.size() - 2);
     const double expected =
         1.2 * static_cast<double>(pairs) / columns * static_cast<double>(sparse.columns.size());
-    const std::size_t room = std::max(pairs + pairs / 4, at(expected));
+    const std::size_t room = std::max(pairs + pairs / 4, static_cast<std::size_t>(expected));
     sparse.rows.reserve(room);
     sparse.values.reserve(room * at(sparse.features));
 }
