@@ -1,5 +1,5 @@
 #pragma once
-// Vertices of a format that repeats a position at every corner.
+// Makes vertices for a format that repeats a position at every corner.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace coseg {
 
-/// Whether two corners are one vertex: equal coordinates, where -0 and what is too small for a normal float
-/// count as 0.
+/// Whether two corners are one vertex, that is, have equal coordinates. -0 and what is too small for a normal
+/// float count as 0.
 bool is_same_position(const Eigen::Vector3f& a, const Eigen::Vector3f& b);
 
 /// Gives corners at the same position the same vertex. A vertex has the coordinates of the corner that was
@@ -18,7 +18,7 @@ class CornerWelder {
     /// 0, 1, ... in the order in which positions are first met. There may be as many as an int can number.
     int number_of(const Eigen::Vector3f& position);
 
-    /// The position of each number. Nothing may be asked for afterwards.
+    /// The position of each number. No other function may be called afterwards.
     std::vector<Eigen::Vector3d> take_vertices() { return std::move(vertices_); }
 
   private:

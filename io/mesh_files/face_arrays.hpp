@@ -1,5 +1,5 @@
 #pragma once
-// What is known of the faces of a mesh, to be written with it.
+// Values of the faces of a mesh that are written with it.
 
 #include <string>
 #include <utility>

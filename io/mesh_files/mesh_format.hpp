@@ -47,7 +47,7 @@ struct MeshFormat {
 /// All rows, in the order in which help and messages name them.
 std::span<const MeshFormat> mesh_formats();
 
-/// What stands behind the last dot of the file's name, in lower case, with the dot; empty if there is no dot.
+/// The suffix of the file's name: its last dot and what follows it, in lower case; empty if there is no dot.
 std::string suffix_of(const std::string& path);
 
 /// The row of the path's suffix if it can be read; nullptr otherwise.

@@ -1,5 +1,6 @@
 #pragma once
-// What a mesh file may hold at most, and the sentences about what it may not, alike for all formats.
+// The limits of what a mesh file may hold, and the sentences about what is beyond them, which are the same
+// for all formats.
 
 #include <cmath>
 #include <cstdint>
@@ -19,16 +20,16 @@ inline constexpr std::int64_t most_vertices = std::numeric_limits<int>::max();
 /// int.
 inline constexpr std::int64_t most_corners = 700'000'000;
 
-/// False for infinity and what is not a number, too.
+/// Whether the coordinate is within the limit; false also for infinity and for what is not a number.
 inline bool is_usable_coordinate(double value) { return std::abs(value) <= largest_coordinate; }
 
-/// What is wrong with a coordinate of vertex `vertex` for which is_usable_coordinate is false.
+/// The sentence about a coordinate of vertex `vertex` for which is_usable_coordinate is false.
 std::string bad_coordinate(std::int64_t vertex, double value);
 
 /// "face 7 refers to vertex 12, but there are 8 vertices (counted from 0) ...".
 std::string bad_index(std::int64_t face, std::int64_t index, std::int64_t vertices);
 
-/// What is wrong with a mesh beyond most_vertices or most_corners.
+/// The sentences about a mesh beyond most_vertices or most_corners.
 inline constexpr const char* too_many_vertices = "the mesh has too many vertices; split it";
 inline constexpr const char* too_many_corners = "the mesh has too many corners; split it";
 

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes out of files.
+// Reads meshes out of files.
 
 #include <string>
 #include <string_view>

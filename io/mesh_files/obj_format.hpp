@@ -9,9 +9,9 @@
 
 namespace coseg {
 
-/// Reads the lines "v" and "f" and passes all others over, so that no material file is opened. Vertices may
-/// be numbered backwards from the latest one (-1), and what follows a slash (texture, normal) is left out. A
-/// face of three different vertices or more names each of them once. A backslash at the end of a line joins
+/// Reads the lines "v" and "f" and skips all others, so that no material file is opened. Vertices may be
+/// numbered backwards from the latest one (-1), and what follows a slash (texture, normal) is left out. A
+/// face of at least three different vertices names each of them once. A backslash at the end of a line joins
 /// the next line to it. mesh_format.hpp says what all readers have in common.
 PolygonMesh read_obj(std::string_view bytes, const std::string& path);
 

@@ -35,8 +35,8 @@ struct PlyHeader {
 /// Throws Error(input) naming path and line for a header that is cut short or not understood.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& path);
 
-/// Bytes that an element takes at least: of a list its count, of a number in ASCII a digit and what parts it
-/// from the next.
+/// The least number of bytes that an element takes: for a list those of its count, for a number in ASCII a
+/// digit and the separator from the next one.
 std::size_t least_bytes(const PlyElement& element, bool is_binary);
 
 }  // namespace coseg
