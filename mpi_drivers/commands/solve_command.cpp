@@ -30,7 +30,7 @@ struct SolveSettings {
 };
 
 /// Rank 0 reads; the others learn of a bad file before they wait for its content.
-ProblemFile read_and_broadcast(const Comm& comm, const std::string& path, FeatureMatrices& features) {
+ProblemFile broadcast_problem(const Comm& comm, const std::string& path, FeatureMatrices& features) {
     ProblemFile file;
     agree(comm, [&] {
         if (comm.is_root()) file = read_problem_file(path);
@@ -45,8 +45,7 @@ ProblemFile read_and_broadcast(const Comm& comm, const std::string& path, Featur
     return file;
 }
 
-SubspaceProblem make_problem(const ProblemFile& file, FeatureMatrices features,
-                             const SolveSettings& settings) {
+SubspaceProblem problem_of(const ProblemFile& file, FeatureMatrices features, const SolveSettings& settings) {
     SubspaceProblem problem;
     problem.features = std::move(features);
     problem.lambda = file.lambda;
@@ -72,8 +71,8 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
             "over all pairs");
     }
     FeatureMatrices features;
-    const ProblemFile file = read_and_broadcast(comm, settings.path, features);
-    const SubspaceProblem problem = make_problem(file, std::move(features), settings);
+    const ProblemFile file = broadcast_problem(comm, settings.path, features);
+    const SubspaceProblem problem = problem_of(file, std::move(features), settings);
     const Stopwatch clock;
     const SolveResult result =
         solve_variant(comm, problem, variant_of(settings.variant), settings.feature - 1, settings.options);
