@@ -154,6 +154,7 @@ PolygonMesh read_binary(std::string_view bytes, std::uint32_t facet_count, const
         Eigen::Vector3f normal;
         for (float& value : normal.reshaped()) cursor.read(value);
         Facet facet;
+        facet.fill(Eigen::Vector3f::Zero());
         for (Eigen::Vector3f& corner : facet) {
             for (float& value : corner.reshaped()) {
                 cursor.read(value);
