@@ -83,12 +83,12 @@ class HeaderReader {
     }
 
     void read_element() {
-        PlyElement element;
-        element.name = cursor_.word();
+        const std::string_view name = cursor_.word();
+        PlyElement element{std::string(name), 0, {}};
         const std::string_view count = cursor_.word();
         if (!parse_integer(count, element.count) || element.count < 0 ||
             element.count > std::numeric_limits<int>::max()) {
-            cursor_.fail("the number of elements " + quoted(element.name) + " is " + quoted(count) +
+            cursor_.fail("the number of elements " + quoted(name) + " is " + quoted(count) +
                          ", which is no count");
         }
         header_.elements.push_back(std::move(element));
