@@ -66,9 +66,9 @@ Collection described(const Comm& world, const RunOptions& options, const RunStat
     return collection;
 }
 
-ReportState summary(const RunState* state, const Collection& collection) {
+std::optional<ReportState> summary(const RunState* state, const Collection& collection) {
+    if (state == nullptr) return std::nullopt;
     ReportState reused;
-    if (state == nullptr) return reused;
     reused.folder = state->folder().path();
     for (const MeshFacts& mesh : collection.meshes)
         ++(mesh.reused ? reused.meshes_reused : reused.meshes_described);
@@ -89,8 +89,8 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     agree(world, [&] { model = read_run_model(command.run); });
     if (!model.same_build) {
         log.warn(command.run +
-                 " was made by another build of coseg: if descriptors have changed since, labels suffer; "
-                 "run coseg run again to be sure");
+                 " was made by a coseg that computes features from other sources or settings: where these "
+                 "differ in result, labels suffer; run coseg run again to be sure");
     }
     const RunOptions options = merged(model, command.own);
     std::optional<RunState> state;
@@ -98,7 +98,7 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
         state.emplace(world, options.state, LockMode::exclusive, options.checkpoint_seconds);
     ResultFolder folder(world, options.out, options.force);
     Collection collection = described(world, options, state ? &*state : nullptr, log);
-    const ReportState reused = summary(state ? &*state : nullptr, collection);
+    const std::optional<ReportState> reused = summary(state ? &*state : nullptr, collection);
     log.begin("features");
     const PatchFeatures features = patch_features(world, collection, options, &model.bins);
     log.end("in the bins and words of " + command.run);

@@ -12,6 +12,7 @@
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
 #include "src/base/stopwatch.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -35,11 +36,7 @@ ProblemFile broadcast_problem(const Comm& comm, const std::string& path, Feature
     agree(comm, [&] {
         if (comm.is_root()) file = read_problem_file(path);
     });
-    double numbers[3] = {file.lambda, file.alpha, file.beta};
-    MPI_Bcast(numbers, 3, MPI_DOUBLE, 0, comm.raw());
-    file.lambda = numbers[0];
-    file.alpha = numbers[1];
-    file.beta = numbers[2];
+    for (double* penalty : {&file.lambda, &file.alpha, &file.beta}) broadcast(comm, *penalty);
     features = share_matrices(comm, file.features);
     file.features.clear();
     return file;
