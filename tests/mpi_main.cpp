@@ -1,5 +1,5 @@
-// Runs the distributed tests, or those of one source (--tests-of), on every rank. A failure on any rank fails the run, and
-// every rank's failures are printed.
+// Runs the distributed tests, or those of one source (--tests-of), on every rank. A failure on any rank fails
+// the run, and every rank's failures are printed.
 
 #include <gtest/gtest.h>
 #include <mpi.h>
