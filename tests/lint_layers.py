@@ -24,7 +24,7 @@ ROOMS = {
     "src/base": (),
     "src/records": ("src/base",),
     "src/parallel": ("src/base", "src/records"),
-    "src/mesh": ("src/base",),
+    "src/mesh": ("src/base", "src/records"),
     "src/repair": ("src/base", "src/mesh"),
     "src/remesh": ("src/base", "src/mesh"),
     "src/geodesics": ("src/base", "src/mesh"),

@@ -25,6 +25,6 @@ MeshDescription read_description(const std::string& file, int mesh, const std::s
                                  const std::string& path);
 
 inline constexpr const char* description_format = "coseg mesh description";
-inline constexpr int description_version = 1;
+inline constexpr int description_version = 2;
 
 }  // namespace coseg

@@ -48,6 +48,14 @@ struct DescriptionOptions {
     int oversegmentations = 3;
     double cut_noise = 0.3;
     int geodesic_samples = 300;
+    static constexpr auto fields() {
+        return std::tuple(field("seed", &DescriptionOptions::seed),
+                          field("remesh", &DescriptionOptions::remesh),
+                          field("patches", &DescriptionOptions::patches),
+                          field("oversegmentations", &DescriptionOptions::oversegmentations),
+                          field("cut-noise", &DescriptionOptions::cut_noise),
+                          field("geodesic-samples", &DescriptionOptions::geodesic_samples));
+    }
 };
 
 DescriptionOptions description_options(const RunOptions& options);
@@ -91,6 +99,20 @@ struct MeshDescription {
     double seconds = 0.0;
     std::array<double, describe_step_total> step_seconds{};
     std::vector<StepSpan> step_spans;  ///< ascending in time, disjoint
+    /// What a state folder keeps; the rest belongs to a run or stands in the mesh's own file.
+    static constexpr auto fields() {
+        return std::tuple(
+            local(&MeshDescription::mesh), local(&MeshDescription::key), local(&MeshDescription::input),
+            field("map", &MeshDescription::map), field("overlong_area", &MeshDescription::overlong_area),
+            field("remeshed", &MeshDescription::remeshed), field("geometry", &MeshDescription::geometry),
+            field("graph", &MeshDescription::graph), local(&MeshDescription::descriptors),
+            local(&MeshDescription::shape_context), field("patches", &MeshDescription::patches),
+            field("patch_counts", &MeshDescription::patch_counts),
+            field("neighbors", &MeshDescription::neighbors), field("overlaps", &MeshDescription::overlaps),
+            local(&MeshDescription::warnings), local(&MeshDescription::reused),
+            local(&MeshDescription::seconds), local(&MeshDescription::step_seconds),
+            local(&MeshDescription::step_spans));
+    }
 };
 
 /// Repairs, over-segments and describes one mesh. bytes: the content of the file at `path`. Serial; a function of the

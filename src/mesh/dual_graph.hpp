@@ -2,11 +2,13 @@
 // The graph of faces: each face is a node, each mesh edge between two faces is an edge, and virtual edges
 // join components that share no mesh edge.
 
+#include <tuple>
 #include <vector>
 
 #include "src/base/index.hpp"
 #include "src/mesh/face_geometry.hpp"
 #include "src/mesh/tri_mesh.hpp"
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -20,6 +22,12 @@ struct DualEdge {
     /// convex.
     double dihedral = 0.0;
     bool is_virtual = false;  ///< joins two components that share no mesh edge
+    static constexpr auto fields() {
+        return std::tuple(field("face_a", &DualEdge::face_a), field("face_b", &DualEdge::face_b),
+                          field("vertex_a", &DualEdge::vertex_a), field("vertex_b", &DualEdge::vertex_b),
+                          field("length", &DualEdge::length), field("dihedral", &DualEdge::dihedral),
+                          field("is_virtual", &DualEdge::is_virtual));
+    }
 };
 
 /// Edges are sorted by (face_a, face_b), so that every loop over them has one order.
@@ -32,6 +40,11 @@ struct DualGraph {
     [[nodiscard]] int other_face(int edge, int face) const {
         const DualEdge& e = edges[at(edge)];
         return e.face_a == face ? e.face_b : e.face_a;
+    }
+    /// The rest follows from these, see index_incidence.
+    static constexpr auto fields() {
+        return std::tuple(field("face_count", &DualGraph::face_count), field("edges", &DualGraph::edges),
+                          local(&DualGraph::offsets), local(&DualGraph::incident));
     }
 };
 

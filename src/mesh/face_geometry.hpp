@@ -2,8 +2,10 @@
 // Areas, normals and centroids of faces, and the normalisation that makes descriptors independent of scale.
 
 #include <Eigen/Core>
+#include <tuple>
 
 #include "src/mesh/tri_mesh.hpp"
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -12,6 +14,11 @@ struct FaceGeometry {
     Eigen::Matrix3Xd normal;    ///< 3 x F, unit length, outward; zero for a face without area
     Eigen::Matrix3Xd centroid;  ///< 3 x F
     double total_area = 0.0;
+    static constexpr auto fields() {
+        return std::tuple(field("area", &FaceGeometry::area), field("normal", &FaceGeometry::normal),
+                          field("centroid", &FaceGeometry::centroid),
+                          field("total_area", &FaceGeometry::total_area));
+    }
 };
 
 FaceGeometry face_geometry(const TriMesh& mesh);

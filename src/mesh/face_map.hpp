@@ -3,7 +3,10 @@
 // faces.
 
 #include <Eigen/Core>
+#include <tuple>
 #include <vector>
+
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -18,6 +21,11 @@ struct FaceMap {
     /// Empty, or per input face: the working face whose label it takes if it has none of its own. With -1 it
     /// takes the label of its label_donor.
     std::vector<int> nearest_working;
+    static constexpr auto fields() {
+        return std::tuple(
+            field("input_faces", &FaceMap::input_faces), field("input_face", &FaceMap::input_face),
+            field("label_donor", &FaceMap::label_donor), field("nearest_working", &FaceMap::nearest_working));
+    }
 };
 
 /// The label of each input face: the one with the largest working area on it, and of equal areas the lowest

@@ -45,6 +45,16 @@ constexpr Field<R, T> inlined(T R::*member) {
     return {"", member, Storage::plain};
 }
 
+/// A member that stays where it is: it is in the list, so that the list is complete, and is carried nowhere.
+template <class R, class T>
+struct LocalMember {
+    T R::*member;
+};
+template <class R, class T>
+constexpr LocalMember<R, T> local(T R::*member) {
+    return {member};
+}
+
 /// A plain struct with a list of its fields:
 ///
 ///     struct Point {
@@ -148,11 +158,25 @@ constexpr void refuse_forgotten_member(const R& record) {
 
 }  // namespace kinds
 
+namespace kinds {
+
+template <class Entry>
+inline constexpr bool is_local = false;
+template <class R, class T>
+inline constexpr bool is_local<LocalMember<R, T>> = true;
+
+template <class R, class Entry, class Visit>
+constexpr void visit_field(R& record, const Entry& entry, Visit& visit) {
+    if constexpr (!is_local<Entry>) visit(entry, record.*(entry.member));
+}
+
+}  // namespace kinds
+
 /// Calls visit(entry, value) for every field in the order of the list; `entry` is the Field. R may be const.
 template <Record R, class Visit>
 constexpr void for_each_field(R& record, Visit&& visit) {
     kinds::refuse_forgotten_member<std::remove_const_t<R>>(record);
-    std::apply([&](const auto&... entry) { (visit(entry, record.*(entry.member)), ...); },
+    std::apply([&](const auto&... entry) { (kinds::visit_field(record, entry, visit), ...); },
                std::remove_const_t<R>::fields());
 }
 

@@ -46,6 +46,7 @@ void expect_same(const MeshDescription& a, const MeshDescription& b) {
     EXPECT_EQ(a.map.input_faces, b.map.input_faces);
     EXPECT_EQ(a.map.input_face, b.map.input_face);
     EXPECT_EQ(a.map.label_donor, b.map.label_donor);
+    EXPECT_EQ(a.map.nearest_working, b.map.nearest_working);
     EXPECT_EQ(a.geometry.area, b.geometry.area);
     EXPECT_EQ(a.geometry.normal, b.geometry.normal);
     EXPECT_EQ(a.geometry.centroid, b.geometry.centroid);
@@ -95,6 +96,19 @@ TEST(KeptDescription, IsTheSameToTheBitWhenReused) {
     expect_same(made, first);
     expect_same(made, second);
     EXPECT_EQ(folder.files().size(), 1U);
+}
+
+TEST(KeptDescription, OfARemeshedMeshSaysWhichWorkingFaceIsNearest) {
+    const TemporaryFolder place;
+    const MeshEntry entry = small_mesh(place);
+    const StateFolder folder = StateFolder::make(place.path("state"));
+    DescriptionOptions remeshed = quick;
+    remeshed.remesh = "always";
+    const MeshDescription made = kept_description(4, entry, remeshed, &folder);
+    const MeshDescription again = kept_description(4, entry, remeshed, &folder);
+    EXPECT_TRUE(again.reused);
+    EXPECT_FALSE(made.map.nearest_working.empty());
+    expect_same(made, again);
 }
 
 TEST(KeptDescription, IsMadeAnewIfItsFileIsDamaged) {

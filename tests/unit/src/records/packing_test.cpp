@@ -24,6 +24,21 @@ TEST(Packing, EveryFieldIsCarried) {
     }
 }
 
+struct WithCache {
+    int value = 0;
+    int cache = 0;
+    static constexpr auto fields() {
+        return std::tuple(field("value", &WithCache::value), local(&WithCache::cache));
+    }
+};
+
+TEST(Packing, WhatIsLocalStaysWhereItIs) {
+    WithCache other{.value = 1, .cache = 2};
+    Unpacker(packed(WithCache{.value = 3, .cache = 4})).take(other);
+    EXPECT_EQ(other.value, 3);
+    EXPECT_EQ(other.cache, 2);
+}
+
 TEST(Packing, BytesThatEndTooEarlyAreRefused) {
     const std::vector<std::byte> bytes = packed(filled_record(1));
     for (std::size_t length = 0; length < bytes.size(); ++length) {
