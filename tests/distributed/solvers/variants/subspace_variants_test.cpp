@@ -12,10 +12,10 @@
 namespace coseg {
 namespace {
 
-const SolveOptions precise{.gap = 1e-6, .max_iterations = 100000, .max_seconds = 3600.0, .solver = "auto"};
+const SolveOptions small_gap{.gap = 1e-6, .max_iterations = 100000, .max_seconds = 3600.0, .solver = "auto"};
 
 /// The last row of the history is the answer's.
-void expect_history(const SolveResult& result) {
+void expect_own_history(const SolveResult& result) {
     ASSERT_FALSE(result.history.empty());
     const HistoryRow& last = result.history.back();
     EXPECT_DOUBLE_EQ(last.objective, result.objective);
@@ -28,13 +28,13 @@ void expect_history(const SolveResult& result) {
 /// Solves on all ranks and on rank 0 alone: figures and coefficients must agree to the bit. Returns what all
 /// ranks found, with the coefficients of all columns.
 SolveResult solve_both_ways(const SubspaceProblem& problem, SubspaceVariant variant, int feature = 0,
-                            const SolveOptions& options = precise) {
+                            const SolveOptions& options = small_gap) {
     const Comm world(MPI_COMM_WORLD);
     SolveResult shared = solve_variant(world, problem, variant, feature, options);
     shared.coefficients = gathered(world, shared.coefficients);
     if (world.is_root())
         expect_same_solution(shared, solve_variant(Comm(MPI_COMM_SELF), problem, variant, feature, options));
-    expect_history(shared);
+    expect_own_history(shared);
     EXPECT_LE(shared.lower_bound, shared.objective);
     EXPECT_EQ(shared.reason, StopReason::gap_reached) << to_string(variant);
     EXPECT_GT(shared.nonzero_groups, 0);
@@ -70,12 +70,12 @@ TEST(SubspaceVariants, ASingleFeatureIsTheProblemOfThatFeature) {
         problem.scope = scope;
         const SolveResult one = solve_both_ways(problem, SubspaceVariant::single_feature, 1);
         const SubspaceProblem alone = of_features(problem, {problem.features[1]});
-        EXPECT_EQ(one.objective, solve_subspace(Comm(MPI_COMM_SELF), alone, precise).objective);
+        EXPECT_EQ(one.objective, solve_subspace(Comm(MPI_COMM_SELF), alone, small_gap).objective);
         EXPECT_EQ(one.coefficients.features, 1);
     }
     const SubspaceProblem problem = sample();
     EXPECT_EQ(test::error_of([&] {
-                  solve_variant(Comm(MPI_COMM_WORLD), problem, SubspaceVariant::single_feature, 3, precise);
+                  solve_variant(Comm(MPI_COMM_WORLD), problem, SubspaceVariant::single_feature, 3, small_gap);
               }).code,
               ExitCode::usage);
 }
@@ -83,7 +83,7 @@ TEST(SubspaceVariants, ASingleFeatureIsTheProblemOfThatFeature) {
 TEST(SubspaceVariants, IndependentFeaturesAreTheProblemWithoutAlphaWhereItSeparates) {
     SubspaceProblem problem = sample();
     problem.alpha = 0.0;
-    const SolveResult joint = solve_subspace(Comm(MPI_COMM_SELF), problem, precise);
+    const SolveResult joint = solve_subspace(Comm(MPI_COMM_SELF), problem, small_gap);
     const SolveResult apart = solve_both_ways(problem, SubspaceVariant::independent);
     EXPECT_NEAR(apart.objective, joint.objective, 2e-6 * joint.objective);
     EXPECT_EQ(apart.coefficients.features, 3);
@@ -97,7 +97,8 @@ TEST(SubspaceVariants, IndependentFeaturesOfScopeMeshAddUp) {
     const SolveResult apart = solve_both_ways(problem, SubspaceVariant::independent);
     double objective = 0.0, bound = 0.0;
     for (const Eigen::MatrixXd& feature : problem.features.matrices()) {
-        const SolveResult one = solve_subspace(Comm(MPI_COMM_SELF), of_features(problem, {feature}), precise);
+        const SolveResult one =
+            solve_subspace(Comm(MPI_COMM_SELF), of_features(problem, {feature}), small_gap);
         objective += one.objective;
         bound += one.lower_bound;
     }
@@ -111,7 +112,7 @@ TEST(SubspaceVariants, ConcatenatedFeaturesAreOneLongFeature) {
         problem.scope = scope;
         const SolveResult one = solve_both_ways(problem, SubspaceVariant::concatenated);
         const SubspaceProblem stack = of_features(problem, {stacked(problem)});
-        EXPECT_EQ(one.objective, solve_subspace(Comm(MPI_COMM_SELF), stack, precise).objective);
+        EXPECT_EQ(one.objective, solve_subspace(Comm(MPI_COMM_SELF), stack, small_gap).objective);
     }
 }
 
@@ -131,7 +132,7 @@ TEST(SubspaceVariants, NonnegativeL1IsTheProblemWithBetaAlone) {
     const SolveResult one = solve_both_ways(problem, SubspaceVariant::ssc);
     SubspaceProblem stack = of_features(problem, {stacked(problem)});
     stack.alpha = stack.lambda = 0.0;
-    const SolveResult joint = solve_subspace(Comm(MPI_COMM_SELF), stack, precise);
+    const SolveResult joint = solve_subspace(Comm(MPI_COMM_SELF), stack, small_gap);
     EXPECT_NEAR(one.objective, joint.objective, 2e-6 * joint.objective);
     EXPECT_LE(one.lower_bound, joint.objective);
     for (const double value : one.coefficients.values) EXPECT_GT(value, 0.0);
@@ -141,7 +142,7 @@ TEST(SubspaceVariants, NonnegativeL1IsTheProblemWithBetaAlone) {
 TEST(SubspaceVariants, SignedL1SatisfiesTheOptimalityConditionsOfTheLasso) {
     SubspaceProblem problem = sample();
     problem.beta = 0.05;
-    SolveOptions options = precise;
+    SolveOptions options = small_gap;
     options.gap = 1e-11;
     const SolveResult result = solve_both_ways(problem, SubspaceVariant::ssc_signed, 0, options);
     const Eigen::MatrixXd x = stacked(problem);
@@ -170,7 +171,7 @@ TEST(SubspaceVariants, SignedL1SatisfiesTheOptimalityConditionsOfTheLasso) {
 TEST(SubspaceVariants, L1WithoutPenaltyIsLeastSquares) {
     SubspaceProblem problem = random_subspace_problem(1, 30, 12, 4, 52);
     problem.beta = 0.0;
-    SolveOptions options = precise;
+    SolveOptions options = small_gap;
     // Without a penalty no dual is feasible but by rounding: the point counts, not the bound.
     options.gap = 1e-3;
     options.max_iterations = 20000;
@@ -193,7 +194,7 @@ TEST(SubspaceVariants, DuplicateColumnsAndOneColumn) {
         change_features(problem, [](Eigen::MatrixXd& x) { x.col(33) = x.col(2); });
         solve_both_ways(problem, variant);
         const SubspaceProblem one = random_subspace_problem(2, 5, 1, 1, 53);
-        const SolveResult result = solve_variant(Comm(MPI_COMM_WORLD), one, variant, 0, precise);
+        const SolveResult result = solve_variant(Comm(MPI_COMM_WORLD), one, variant, 0, small_gap);
         EXPECT_EQ(result.nonzero_groups, 0);
         EXPECT_EQ(result.objective, result.objective_at_zero);
     }

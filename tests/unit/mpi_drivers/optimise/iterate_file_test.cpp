@@ -40,7 +40,7 @@ SolveIterate made_iterate(std::int64_t begin, std::int64_t end) {
     return iterate;
 }
 
-void expect_equal(const SolveIterate& a, const SolveIterate& b) {
+void expect_equal_iterates(const SolveIterate& a, const SolveIterate& b) {
     EXPECT_EQ(a.columns, b.columns);
     EXPECT_EQ(a.offsets, b.offsets);
     EXPECT_EQ(a.rows, b.rows);
@@ -69,14 +69,14 @@ TEST(IterateFile, ReturnsWhatWasWritten) {
     const test::TemporaryFolder folder;
     const SolveIterate iterate = made_iterate(32, 50);
     write_iterate(folder.path("iterate.h5"), iterate, 2);
-    expect_equal(read_iterate(folder.path("iterate.h5")), iterate);
+    expect_equal_iterates(read_iterate(folder.path("iterate.h5")), iterate);
 }
 
 TEST(IterateFile, PiecesOfThreeRanksMakeThoseOfTwo) {
     const std::vector<SolveIterate> pieces = {made_iterate(0, 32), made_iterate(32, 64),
                                               made_iterate(64, 70)};
-    expect_equal(cut_to(pieces, {0, 70}, 2), made_iterate(0, 70));
-    expect_equal(cut_to(pieces, {30, 66}, 2), made_iterate(30, 66));
+    expect_equal_iterates(cut_to(pieces, {0, 70}, 2), made_iterate(0, 70));
+    expect_equal_iterates(cut_to(pieces, {30, 66}, 2), made_iterate(30, 66));
     const SolveIterate none = cut_to({pieces[0]}, {70, 70}, 2);
     EXPECT_TRUE(none.rows.empty());
     EXPECT_EQ(none.offsets, std::vector<std::int64_t>{0});

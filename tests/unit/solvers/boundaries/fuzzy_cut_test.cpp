@@ -19,12 +19,12 @@
 namespace coseg {
 namespace {
 
-struct Prepared {
+struct CutInput {
     FaceGeometry geometry;
     DualGraph graph;
 };
 
-Prepared prepared(const TriMesh& mesh) {
+CutInput cut_input(const TriMesh& mesh) {
     FaceGeometry geometry = face_geometry(mesh);
     DualGraph graph = dual_graph(mesh, geometry);
     return {std::move(geometry), std::move(graph)};
@@ -57,7 +57,7 @@ std::vector<int> triangles_to_boundary(const DualGraph& graph, const std::vector
 }
 
 TEST(FuzzyCut, AMisplacedBoundaryMovesToTheWaist) {
-    const Prepared p = prepared(test::dumbbell(40, 24));  // rings 0.075 apart, two triangles each
+    const CutInput p = cut_input(test::dumbbell(40, 24));  // rings 0.075 apart, two triangles each
     const std::vector<int> waist = below(p.geometry, 0.0);
     for (const double z : {-0.3, -0.15, 0.0, 0.15, 0.3}) {
         EXPECT_EQ(fuzzy_cut(p.graph, below(p.geometry, z), {.strip_width = 10}), waist) << z;
@@ -65,7 +65,7 @@ TEST(FuzzyCut, AMisplacedBoundaryMovesToTheWaist) {
 }
 
 TEST(FuzzyCut, ABoundaryFartherThanTheStripStaysAwayFromTheWaist) {
-    const Prepared p = prepared(test::dumbbell(40, 24));
+    const CutInput p = cut_input(test::dumbbell(40, 24));
     const std::vector<int> start = below(p.geometry, 0.6);
     const std::vector<int> cut = fuzzy_cut(p.graph, start, {.strip_width = 4});
     const std::vector<int> distance = triangles_to_boundary(p.graph, start);
@@ -78,14 +78,14 @@ TEST(FuzzyCut, ABoundaryFartherThanTheStripStaysAwayFromTheWaist) {
 }
 
 TEST(FuzzyCut, NoStripChangesNothing) {
-    const Prepared p = prepared(test::dumbbell(20, 12));
+    const CutInput p = cut_input(test::dumbbell(20, 12));
     const std::vector<int> start = below(p.geometry, 0.3);
     EXPECT_EQ(fuzzy_cut(p.graph, start, {.strip_width = 0}), start);
     EXPECT_EQ(fuzzy_cut(p.graph, std::vector<int>(start.size(), 3)), std::vector<int>(start.size(), 3));
 }
 
 TEST(FuzzyCut, CapacityNeverRisesAndNoRegionVanishes) {
-    const Prepared p = prepared(test::torus(1, 0.4, 40, 20));
+    const CutInput p = cut_input(test::torus(1, 0.4, 40, 20));
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
         // Voronoi-like labels of random sites: ragged regions of all sizes.
         SeededStream random(seed);
@@ -134,7 +134,7 @@ TEST(FuzzyCut, CapacitiesFollowTheFormula) {
 }
 
 TEST(FuzzyCut, FlatMeshesHaveTheirLengthsAsCapacities) {
-    const Prepared p = prepared(test::flat_square(4));
+    const CutInput p = cut_input(test::flat_square(4));
     const std::vector<double> capacity = fuzzy_cut_capacities(p.graph, {});
     for (std::size_t e = 0; e < capacity.size(); ++e) {
         EXPECT_NEAR(capacity[e] / capacity[0], p.graph.edges[e].length / p.graph.edges[0].length, 1e-9);
@@ -142,14 +142,14 @@ TEST(FuzzyCut, FlatMeshesHaveTheirLengthsAsCapacities) {
 }
 
 TEST(FuzzyCut, RejectsImpossibleOptions) {
-    const Prepared p = prepared(test::sphere(0));
+    const CutInput p = cut_input(test::sphere(0));
     EXPECT_THROW(fuzzy_cut(p.graph, std::vector<int>(20, 0), {.strip_width = -1}), Error);
     EXPECT_THROW(fuzzy_cut(p.graph, std::vector<int>(20, 0), {.convex_weight = 0.0}), Error);
 }
 
 /// The fuzzy cut of true labels keeps 97 % of the area, and its boundaries cost less than the true ones.
 void expect_truth_barely_moves(const TriMesh& mesh, const std::vector<int>& truth) {
-    const Prepared p = prepared(mesh);
+    const CutInput p = cut_input(mesh);
     const std::vector<int> cut = fuzzy_cut(p.graph, truth);
     double same = 0.0;
     for (std::size_t f = 0; f < cut.size(); ++f)
@@ -175,7 +175,7 @@ TEST(FuzzyCut, TruthOfARealShapeBarelyMoves) {
 }
 
 TEST(FuzzyCut, HeldBoundariesGoNoFartherThanTheirReach) {
-    const Prepared p = prepared(test::dumbbell(40, 24));
+    const CutInput p = cut_input(test::dumbbell(40, 24));
     const std::vector<int> waist = below(p.geometry, 0.0);
     const std::vector<int> start = below(p.geometry, 0.16);
     ASSERT_NE(start, waist);
@@ -187,7 +187,7 @@ TEST(FuzzyCut, HeldBoundariesGoNoFartherThanTheirReach) {
 }
 
 TEST(FuzzyCut, HoldingAStripCostsItsLengthTimesTheSquareOfItsShareOfTheReach) {
-    const Prepared p = prepared(test::flat_square(40));
+    const CutInput p = cut_input(test::flat_square(40));
     std::vector<int> left;
     for (Eigen::Index f = 0; f < p.geometry.area.size(); ++f)
         left.push_back(p.geometry.centroid(0, f) < 0.5 ? 0 : 1);
@@ -206,7 +206,7 @@ TEST(FuzzyCut, HoldingAStripCostsItsLengthTimesTheSquareOfItsShareOfTheReach) {
 }
 
 TEST(FuzzyCut, HeldCutsNeverRaiseTheSumOfCapacityAndHolding) {
-    const Prepared p = prepared(test::dumbbell(30, 18));
+    const CutInput p = cut_input(test::dumbbell(30, 18));
     const std::vector<double> capacity = fuzzy_cut_capacities(p.graph, {});
     for (unsigned seed = 0; seed < 5; ++seed) {
         std::vector<int> label(p.graph.offsets.size() - 1);
@@ -224,7 +224,7 @@ TEST(FuzzyCut, HeldCutsNeverRaiseTheSumOfCapacityAndHolding) {
 }
 
 TEST(FuzzyCut, RefusesHoldingThatDoesNotFit) {
-    const Prepared p = prepared(test::sphere(0));
+    const CutInput p = cut_input(test::sphere(0));
     const std::vector<int> label(20, 0);
     EXPECT_THROW(fuzzy_cut(p.graph, label, {}, std::vector<double>(3, 1.0)), Error);
     EXPECT_THROW(holding_costs(p.graph, p.geometry, label, 0.0), Error);
