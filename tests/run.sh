@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs all tests.
 #
-#   ./tests/run.sh [ARGUMENTS OF CTEST]        e.g. ./tests/run.sh -R Assignment
+#   ./tests/run.sh [ARGUMENTS OF CTEST]        e.g. ./tests/run.sh -R assignment
 #
 # The build folder is build/, shared with jobs/quickstart.sh. The exit code is CTest's.
 # COSEG_WARNINGS_AS_ERRORS=1 makes compiler warnings errors, =0 turns that off again.
+# COSEG_SANITIZERS=1 afterwards builds the unit tests with the address and the undefined-behaviour sanitizer in
+# build-sanitizers/ and runs them too, for at most 10 minutes.
+# COSEG_LINT_ALL=1 has clang-tidy check everything and not only what changed (tests/lint_tidy.py).
 set -euo pipefail
 # shellcheck source=jobs/build_steps.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../jobs/build_steps.sh"
@@ -20,9 +23,31 @@ case "${COSEG_WARNINGS_AS_ERRORS:-}" in
         ;;
 esac
 
+case "${COSEG_SANITIZERS:-0}" in
+    0 | 1) ;;
+    *)
+        echo "error: COSEG_SANITIZERS must be 0 or 1, not '$COSEG_SANITIZERS'" >&2
+        exit 2
+        ;;
+esac
+
+# with_sanitizers : builds the unit tests once more, with sanitizers, and runs them.
+with_sanitizers() {
+    local sanitized=$root/build-sanitizers status=0
+    mkdir -p "$sanitized"
+    echo "building the unit tests with sanitizers in $sanitized"
+    (cd "$root" && logged "$sanitized/configure.log" cmake --preset sanitizers)
+    logged "$sanitized/build.log" cmake --build "$sanitized" --parallel "$cores" --target unit_tests
+    (cd "$root" && timeout --signal=INT 600 \
+        ctest --preset sanitizers --label-regex unit --parallel "$cores") || status=$?
+    if ((status == 124)); then echo "error: the unit tests with sanitizers took longer than 10 minutes" >&2; fi
+    return "$status"
+}
+
 mkdir -p "$build"
 install_missing "$build/install.log" "${coseg_packages[@]}" "${coseg_test_packages[@]}"
 configure "${options[@]}"
 echo "building the program and its tests in $build"
 build_target all
-exec ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$cores" "$@"
+ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$cores" "$@"
+if [[ ${COSEG_SANITIZERS:-0} == 1 ]]; then with_sanitizers; fi
