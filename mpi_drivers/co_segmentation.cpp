@@ -119,13 +119,15 @@ std::string reuse_summary(const Collection& collection) {
     return reused > 0 ? ", " + std::to_string(reused) + " from the state folder" : "";
 }
 
-Collection describe_stage(const Comm& comm, const RunOptions& options, const RunState* state, StageLog& log) {
+DescribedCollection describe_stage(const Comm& comm, const RunOptions& options, const RunState* state,
+                                   StageLog& log) {
     const std::vector<MeshEntry> entries = list_meshes(comm, options.inputs);
     agree(comm, [&] {
         if (comm.is_root()) refuse_input_in_results(entries, options.out);
     });
     log.begin("describe");
-    Collection collection = describe_collection(comm, entries, options, state, log);
+    DescribedCollection described = describe_collection(comm, entries, options, state, log);
+    const Collection& collection = described.collection;
     std::int64_t faces = 0;
     for (const MeshFacts& mesh : collection.meshes) faces += mesh.input_faces;
     log.end(with_unit(static_cast<std::int64_t>(collection.meshes.size()), "shape", "shapes") + ", " +
@@ -133,7 +135,7 @@ Collection describe_stage(const Comm& comm, const RunOptions& options, const Run
             with_unit(collection.numbering.patch_count(), "patch", "patches") + reuse_summary(collection));
     warn_of_meshes(collection, log);
     refuse_too_many_parts(collection, options);
-    return collection;
+    return described;
 }
 
 /// What finds and keeps the results of the optimiser and the cut in a state folder.
@@ -161,9 +163,7 @@ struct Partitioned {
 /// In a large collection they are most of the memory, which the cut needs for its graphs.
 void release_histograms(PatchFeatures& features, const RunOptions& options) {
     const bool still_wanted = options.partition == "diffusion" || options.segments;
-    if (still_wanted) return;
-    features.choice = choice_descriptors(features, options);
-    features.histograms = {};
+    if (!still_wanted) features.histograms = {};
 }
 
 Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures& features,
@@ -174,9 +174,10 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     const SolveResult& solution = done.optimisation.result;
     log.end(describe(done.optimisation));
     if (options.parts > 1) refuse_empty_solution(solution, "the collection");
+    const PartitionInput input{collection, features, solution.coefficients, choice_descriptors(features, options)};
     release_histograms(features, options);
     log.begin("cut");
-    done.cut = cut_or_found(comm, collection, features, solution.coefficients, options, cuts_of(checkpoints));
+    done.cut = cut_or_found(comm, input, options, cuts_of(checkpoints));
     log.end(with_unit(static_cast<std::int64_t>(done.cut.starts.size()), "start", "starts") + ", " +
             std::to_string(options.parts) + " parts");
     return done;
@@ -220,10 +221,11 @@ ReportState summarised(const Comm& comm, const RunState& state, const Checkpoint
     return summary;
 }
 
-PatchFeatures feature_stage(const Comm& comm, Collection& collection, const RunOptions& options,
+PatchFeatures feature_stage(const Comm& comm, const Collection& collection,
+                            std::vector<FaceDescriptors> descriptors, const RunOptions& options,
                             StageLog& log) {
     log.begin("features");
-    PatchFeatures features = patch_features(comm, collection, options);
+    PatchFeatures features = patch_features(comm, collection, std::move(descriptors), options);
     log.end(with_unit(static_cast<std::int64_t>(features.histograms.size()), "feature", "features") + " of " +
             std::to_string(options.bins) + " bins");
     warn_of_copies(features, log);
@@ -267,9 +269,10 @@ void co_segment(const Comm& comm, const RunOptions& options,
         state.emplace(comm, options.state, LockMode::exclusive, options.checkpoint_seconds);
     ResultFolder folder(comm, options.out, options.force);
 
-    Collection collection = describe_stage(comm, options, state ? &*state : nullptr, log);
+    DescribedCollection described = describe_stage(comm, options, state ? &*state : nullptr, log);
+    const Collection& collection = described.collection;
 
-    PatchFeatures features = feature_stage(comm, collection, options, log);
+    PatchFeatures features = feature_stage(comm, collection, std::move(described.descriptors), options, log);
     if (options.keep_features) write_features(comm, collection, features, folder.staging() + "/features.h5");
     if (state) state->end_if_asked(comm, "all meshes");
 

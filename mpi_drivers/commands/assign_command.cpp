@@ -53,17 +53,19 @@ std::vector<std::pair<std::string, std::string>> resolved(const AssignOptions& c
     return values;
 }
 
-Collection described(const Comm& world, const RunOptions& options, const RunState* state, StageLog& log) {
+DescribedCollection describe_new_shapes(const Comm& world, const RunOptions& options, const RunState* state,
+                                        StageLog& log) {
     log.begin("describe");
-    Collection collection =
+    DescribedCollection result =
         describe_collection(world, list_meshes(world, options.inputs), options, state, log);
+    const Collection& collection = result.collection;
     log.end(std::to_string(collection.meshes.size()) + " new shapes, " +
             std::to_string(collection.numbering.patch_count()) + " patches");
     for (const SetAside& mesh : collection.set_aside) log.warn("set aside: " + mesh.reason);
     for (const MeshFacts& mesh : collection.meshes) {
         for (const std::string& warning : mesh.warnings) log.warn(warning);
     }
-    return collection;
+    return result;
 }
 
 ReportState summary(const RunState* state, const Collection& collection) {
@@ -97,10 +99,12 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     if (!options.state.empty())
         state.emplace(world, options.state, LockMode::exclusive, options.checkpoint_seconds);
     ResultFolder folder(world, options.out, options.force);
-    Collection collection = described(world, options, state ? &*state : nullptr, log);
+    DescribedCollection described = describe_new_shapes(world, options, state ? &*state : nullptr, log);
+    const Collection& collection = described.collection;
     const ReportState reused = summary(state ? &*state : nullptr, collection);
     log.begin("features");
-    const PatchFeatures features = patch_features(world, collection, options, &model.bins);
+    const PatchFeatures features =
+        patch_features(world, collection, std::move(described.descriptors), options, &model.bins);
     log.end("in the bins and words of " + command.run);
     warn_of_copies(features, log);
     log.begin("assign");

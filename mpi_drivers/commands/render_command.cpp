@@ -32,6 +32,12 @@ bool needs_truth(const std::vector<std::string>& kinds) {
                        [](const std::string& kind) { return kind == "truth" || kind == "errors"; });
 }
 
+std::string comma_separated(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
 /// --names, else what lies beside the known labels, else none. Collective; throws AgreedError(input).
 LabelNames chosen_names(const Comm& world, const RenderOptions& options) {
     LabelNames names;
@@ -79,8 +85,7 @@ Command add_render_command(CLI::App& parent) {
     app->add_option("RESULT", options->input.folder, "The folder that coseg run was given with --out")
         ->required();
     app->add_option("--what", options->kinds,
-                    "What colours the faces, one or several with commas: parts, patches, truth, errors, "
-                    "gaussian_curvature, shape_diameter, average_geodesic, shape_context, conformal_factor")
+                    "What colours the faces, one or several with commas: " + comma_separated(sheet_kinds()))
         ->delimiter(',')
         ->capture_default_str()
         ->check(CLI::IsMember(sheet_kinds()))

@@ -2,12 +2,14 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
 
 #include "mpi_drivers/describe/patch_gather.hpp"
 #include "solvers/kmeans/shape_words.hpp"
+#include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 #include "src/histograms/feature_range.hpp"
@@ -26,9 +28,10 @@ HistogramScaling scaling_of(const std::string& name) {
     return name == "unit-sum" ? HistogramScaling::unit_sum : HistogramScaling::square_root;
 }
 
-RangeKind range_kind(Feature feature, const RunOptions& options) {
-    if (options.ranges == "global") return RangeKind::global_percentile;
-    return feature == Feature::gaussian_curvature ? RangeKind::equal_mass : RangeKind::per_mesh_percentile;
+/// Of a descriptor of numbers.
+RangeKind range_kind(BinKind bins, const RunOptions& options) {
+    if (options.ranges == "global" || bins == BinKind::global_percentile) return RangeKind::global_percentile;
+    return bins == BinKind::equal_mass ? RangeKind::equal_mass : RangeKind::per_mesh_percentile;
 }
 
 std::string name_of(RangeKind kind) {
@@ -49,25 +52,31 @@ Eigen::VectorXd face_weights(const MeshDescription& mesh, HistogramScaling scali
     return mesh.geometry.area;
 }
 
-BinsOfMeshes scalar_bins(const Comm& comm, Collection& collection, Feature feature, const RunOptions& options,
-                         const FeatureBins* given, PatchFeatures& features) {
-    const RangeKind kind = range_kind(feature, options);
-    const auto index = static_cast<std::size_t>(feature);
-    std::vector<FeatureOfMesh> values;
-    for (MeshDescription& mesh : collection.local) {
-        if (kind == RangeKind::per_mesh_percentile)
-            rescale_per_mesh(mesh.descriptors[index], mesh.geometry.area);
-        values.push_back({mesh.key, &mesh.descriptors[index], &mesh.geometry.area});
+/// What a feature is made of.
+struct FeatureInput {
+    const Collection& collection;
+    const Descriptor& descriptor;
+    const RunOptions& options;
+    const FeatureBins* given;  ///< null: they are to be made
+};
+
+/// Bins of numbers, and their range.
+BinsOfMeshes number_bins(const Comm& comm, const FeatureInput& input, std::vector<FaceValues> values,
+                         FeatureRange& range) {
+    const std::vector<MeshDescription>& meshes = input.collection.local;
+    const RangeKind kind = range_kind(input.descriptor.bins, input.options);
+    std::vector<FeatureOfMesh> of_meshes;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        auto& numbers = std::get<Eigen::VectorXd>(values[k]);
+        if (kind == RangeKind::per_mesh_percentile) rescale_per_mesh(numbers, meshes[k].geometry.area);
+        of_meshes.push_back({meshes[k].key, &numbers, &meshes[k].geometry.area});
     }
-    const FeatureRange range = given != nullptr
-                                   ? given->ranges.at(features.bins.ranges.size())
-                                   : agree_on_range(comm, kind, options.bins, values, options.seed);
-    features.ranges.push_back({feature_names[index], name_of(kind), range.edges.front(), range.edges.back()});
-    features.bins.ranges.push_back(range);
+    range = input.given != nullptr
+                ? std::get<FeatureRange>(*input.given)
+                : agree_on_range(comm, kind, input.options.bins, of_meshes, input.options.seed);
     BinsOfMeshes bins;
     agree(comm, [&] {
-        for (const MeshDescription& mesh : collection.local)
-            bins.push_back(bin_of_face(mesh.descriptors[index], range));
+        for (const FeatureOfMesh& mesh : of_meshes) bins.push_back(bin_of_face(*mesh.values, range));
     });
     return bins;
 }
@@ -123,26 +132,32 @@ BinsOfMeshes nearest_words(const Comm& comm, const std::vector<ShapeWordInput>& 
 
 /// Histograms over several sets of words, one below the other, scaled so that inner products are the mean over the
 /// sets (square roots), or columns the mean: where k-means puts its borders is chance, which several sets even out.
-void fill_word_histograms(const Comm& comm, const Collection& collection, const RunOptions& options,
-                          const FeatureBins* given, FeatureBins& bins_used, double weight,
-                          const FeatureMatrices::Block& rows) {
-    std::vector<ShapeWordInput> contexts;
-    for (const MeshDescription& mesh : collection.local) contexts.push_back({mesh.key, &mesh.shape_context});
+std::vector<Eigen::MatrixXf> fill_word_histograms(const Comm& comm, const FeatureInput& input,
+                                                  const std::vector<FaceValues>& values,
+                                                  const FeatureMatrices::Block& rows) {
+    const RunOptions& options = input.options;
+    std::vector<ShapeWordInput> vectors;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        vectors.push_back({input.collection.local[k].key, &std::get<Eigen::MatrixXf>(values[k])});
     const auto sets = static_cast<double>(options.word_sets);
     const bool is_root = scaling_of(options.histogram) == HistogramScaling::square_root;
+    std::vector<Eigen::MatrixXf> words;
     for (int set = 0; set < options.word_sets; ++set) {
         const std::uint64_t seed =
             set == 0 ? options.seed : hash_words({options.seed, static_cast<std::uint64_t>(set)});
-        const Eigen::MatrixXf* known =
-            given != nullptr ? &given->words.at(static_cast<std::size_t>(set)) : nullptr;
         Eigen::MatrixXf centres;
-        const BinsOfMeshes bins = known != nullptr
-                                      ? nearest_words(comm, contexts, *known)
-                                      : shape_words(comm, contexts, options.bins, seed, &centres);
-        bins_used.words.push_back(known != nullptr ? *known : centres);
-        fill_histograms(comm, collection, bins, options, is_root ? std::sqrt(sets) : sets, weight,
-                        static_cast<Eigen::Index>(set) * options.bins, rows);
+        BinsOfMeshes bins;
+        if (input.given != nullptr) {
+            centres = std::get<std::vector<Eigen::MatrixXf>>(*input.given).at(at(set));
+            bins = nearest_words(comm, vectors, centres);
+        } else {
+            bins = shape_words(comm, vectors, options.bins, seed, &centres);
+        }
+        words.push_back(std::move(centres));
+        fill_histograms(comm, input.collection, bins, options, is_root ? std::sqrt(sets) : sets,
+                        input.descriptor.weight, static_cast<Eigen::Index>(set) * options.bins, rows);
     }
+    return words;
 }
 
 /// Areas and positions of all patches. Collective.
@@ -165,42 +180,71 @@ void gather_patches(const Comm& comm, const Collection& collection, PatchFeature
     features.positions = all.bottomRows(3);
 }
 
-/// What the allocator then holds in small pieces goes back to the system: the next stages ask for large ones.
-void release_descriptors(Collection& collection) {
-    for (MeshDescription& mesh : collection.local) {
-        mesh.shape_context.resize(0, 0);
-        for (Eigen::VectorXd& values : mesh.descriptors) values.resize(0);
+/// The rows of the table that have a weight, with this weight in place of the table's.
+std::vector<Descriptor> weighted_descriptors(const RunOptions& options) {
+    std::vector<Descriptor> weighted;
+    const std::vector<Descriptor>& table = descriptor_table();
+    for (std::size_t row = 0; row < table.size(); ++row) {
+        if (!(options.feature_weights.at(row) > 0.0)) continue;
+        weighted.push_back(table[row]);
+        weighted.back().weight = options.feature_weights[row];
     }
-    malloc_trim(0);
+    return weighted;
+}
+
+/// Takes the values of one descriptor out of what is known of each mesh.
+std::vector<FaceValues> taken_values(std::vector<FaceDescriptors>& descriptors, const std::string& name) {
+    std::vector<FaceValues> values;
+    for (FaceDescriptors& of_mesh : descriptors) {
+        const auto found = std::find_if(of_mesh.begin(), of_mesh.end(), [&](const FaceDescriptor& one) {
+            return descriptor_table()[at(one.row)].name == name;
+        });
+        if (found == of_mesh.end())
+            throw Error(ExitCode::internal, "a mesh was described without its " + name);
+        values.push_back(std::move(found->values));
+        of_mesh.erase(found);
+    }
+    return values;
+}
+
+/// Fills in feature k, and says by which bins.
+FeatureBins fill_feature(const Comm& comm, const FeatureInput& input, std::vector<FaceValues> values,
+                         std::size_t k, PatchFeatures& features) {
+    if (input.descriptor.bins == BinKind::words)
+        return fill_word_histograms(comm, input, values, features.histograms.fill(k));
+    FeatureRange range;
+    const BinsOfMeshes bins = number_bins(comm, input, std::move(values), range);
+    features.ranges.push_back({input.descriptor.name,
+                               name_of(range_kind(input.descriptor.bins, input.options)), range.edges.front(),
+                               range.edges.back()});
+    fill_histograms(comm, input.collection, bins, input.options, 1.0, input.descriptor.weight, 0,
+                    features.histograms.fill(k));
+    return range;
 }
 
 }  // namespace
 
-PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options,
-                             const FeatureBins* given) {
+PatchFeatures patch_features(const Comm& comm, const Collection& collection,
+                             std::vector<FaceDescriptors> descriptors, const RunOptions& options,
+                             const std::vector<FeatureBins>* given) {
     PatchFeatures features;
+    features.descriptors = weighted_descriptors(options);
     std::vector<Eigen::Index> rows;
-    for (int h = 0; h < feature_total; ++h) {
-        if (!(options.feature_weights[at(h)] > 0.0)) continue;
-        features.feature_of.push_back(h);
-        const int sets = static_cast<Feature>(h) == Feature::shape_context ? options.word_sets : 1;
+    for (const Descriptor& descriptor : features.descriptors) {
+        const int sets = descriptor.bins == BinKind::words ? options.word_sets : 1;
         rows.push_back(static_cast<Eigen::Index>(sets) * options.bins);
     }
     features.histograms = FeatureMatrices(comm, rows, collection.numbering.patch_count());
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        const auto feature = static_cast<Feature>(features.feature_of[k]);
-        const double weight = options.feature_weights[at(features.feature_of[k])];
-        if (feature == Feature::shape_context) {
-            fill_word_histograms(comm, collection, options, given, features.bins, weight,
-                                 features.histograms.fill(k));
-        } else {
-            const BinsOfMeshes bins = scalar_bins(comm, collection, feature, options, given, features);
-            fill_histograms(comm, collection, bins, options, 1.0, weight, 0, features.histograms.fill(k));
-        }
+        const Descriptor& descriptor = features.descriptors[k];
+        const FeatureInput input{collection, descriptor, options, given != nullptr ? &given->at(k) : nullptr};
+        features.bins.push_back(
+            fill_feature(comm, input, taken_values(descriptors, descriptor.name), k, features));
     }
     features.histograms.share(filled_columns(collection));
     gather_patches(comm, collection, features);
-    release_descriptors(collection);
+    descriptors.clear();
+    malloc_trim(0);  // what the allocator holds in small pieces goes back: the next stages ask for large ones
     return features;
 }
 

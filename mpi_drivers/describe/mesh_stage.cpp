@@ -1,6 +1,8 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -14,7 +16,7 @@ namespace coseg {
 namespace {
 
 struct Attempt {
-    std::vector<MeshDescription> described;  ///< numbered by entry
+    std::vector<DescribedMesh> described;  ///< numbered by entry
     std::vector<std::pair<int, Error>> failed;
 };
 
@@ -47,24 +49,35 @@ bool attempt_one(Attempt& attempt, int number, const MeshEntry& entry, const Des
 /// The mesh and its steps as spans of the stage; a mesh that failed has no steps.
 void trace_mesh(const Attempt& attempt, int number, const MeshEntry& entry, StageLog::Clock::time_point start,
                 StageLog& log) {
-    if (!attempt.described.empty() && attempt.described.back().mesh == number) {
-        for (const StepSpan& span : attempt.described.back().step_spans)
-            log.span(describe_step_names[at(span.step)], "step", span.start, span.end);
+    if (!attempt.described.empty() && attempt.described.back().mesh.mesh == number) {
+        for (const StepSpan& span : attempt.described.back().mesh.step_spans)
+            log.span(span.step, "step", span.start, span.end);
     }
     log.span(entry.name, "mesh", start, StageLog::Clock::now());
 }
 
 enum class Keep { all, nothing };
 
-void forget_content(MeshDescription& description) {
-    MeshDescription bare;
-    bare.mesh = description.mesh;
-    bare.reused = description.reused;
-    bare.warnings = std::move(description.warnings);
-    bare.seconds = description.seconds;
-    bare.step_seconds = description.step_seconds;
-    bare.step_spans = std::move(description.step_spans);
-    description = std::move(bare);
+/// What is told of a mesh whose description went into the state folder.
+DescribedMesh without_content(DescribedMesh&& described) {
+    MeshDescription& mesh = described.mesh;
+    DescribedMesh bare;
+    bare.mesh.mesh = mesh.mesh;
+    bare.mesh.reused = mesh.reused;
+    bare.mesh.warnings = std::move(mesh.warnings);
+    bare.mesh.seconds = mesh.seconds;
+    bare.mesh.step_spans = std::move(mesh.step_spans);
+    return bare;
+}
+
+/// What this rank spent on each step of its meshes.
+void log_steps(const Attempt& attempt, const DescriptionOptions& options, StageLog& log) {
+    std::map<std::string, double> seconds;
+    for (const DescribedMesh& described : attempt.described) {
+        for (const StepSpan& span : described.mesh.step_spans)
+            seconds[span.step] += std::chrono::duration<double>(span.end - span.start).count();
+    }
+    for (const std::string& step : describe_steps(options)) log.step(step, seconds[step]);
 }
 
 Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& entries,
@@ -83,17 +96,13 @@ Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& en
         const bool goes_on = attempt_one(attempt, number, entry, description, folder);
         trace_mesh(attempt, number, entry, start, log);
         if (goes_on && keep == Keep::nothing && !attempt.described.empty())
-            forget_content(attempt.described.back());
+            attempt.described.back() = without_content(std::move(attempt.described.back()));
         if (!goes_on || (state != nullptr && state->stop_is_raised())) counter.exhaust();
     }
     log.end_of_own_work();
-    for (std::size_t s = 0; s < describe_step_names.size(); ++s) {
-        double seconds = 0.0;
-        for (const MeshDescription& mesh : attempt.described) seconds += mesh.step_seconds[s];
-        log.step(describe_step_names[s], seconds);
-    }
+    log_steps(attempt, description, log);
     std::sort(attempt.described.begin(), attempt.described.end(),
-              [](const MeshDescription& a, const MeshDescription& b) { return a.mesh < b.mesh; });
+              [](const DescribedMesh& a, const DescribedMesh& b) { return a.mesh.mesh < b.mesh.mesh; });
     return attempt;
 }
 
@@ -142,11 +151,11 @@ void refuse_if_unusable(const std::vector<std::pair<int, Error>>& failures, std:
 }
 
 /// Renumbers the usable meshes of this rank: an entry's number less the unusable entries before it.
-void renumber(std::vector<MeshDescription>& described, const std::vector<std::pair<int, Error>>& failures) {
+void renumber(std::vector<DescribedMesh>& described, const std::vector<std::pair<int, Error>>& failures) {
     auto failure = failures.begin();  // both ascend
-    for (MeshDescription& description : described) {
-        while (failure != failures.end() && failure->first < description.mesh) ++failure;
-        description.mesh -= static_cast<int>(failure - failures.begin());
+    for (DescribedMesh& one : described) {
+        while (failure != failures.end() && failure->first < one.mesh.mesh) ++failure;
+        one.mesh.mesh -= static_cast<int>(failure - failures.begin());
     }
 }
 
@@ -249,7 +258,8 @@ DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry
     DescribeTotals totals;
     std::vector<std::string> warnings;
     std::int64_t reused = 0;
-    for (const MeshDescription& mesh : attempt.described) {
+    for (const DescribedMesh& described : attempt.described) {
+        const MeshDescription& mesh = described.mesh;
         warnings.insert(warnings.end(), mesh.warnings.begin(), mesh.warnings.end());
         if (mesh.reused) ++reused;
     }
@@ -261,17 +271,21 @@ DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry
     return totals;
 }
 
-Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
-                               const RunOptions& options, const RunState* state, StageLog& log) {
+DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                        const RunOptions& options, const RunState* state, StageLog& log) {
     Attempt attempt = describe_dealt_meshes(comm, entries, options, state, Keep::all, log);
     const std::vector<std::pair<int, Error>> failures = gather_failures(comm, attempt);
     refuse_if_unwritable(failures);
     if (state != nullptr) end_if_asked(comm, *state, attempt, entries.size());
     refuse_if_unusable(failures, entries.size(), options.strict);
 
-    Collection collection;
+    DescribedCollection result;
+    Collection& collection = result.collection;
     renumber(attempt.described, failures);
-    collection.local = std::move(attempt.described);
+    for (DescribedMesh& described : attempt.described) {
+        collection.local.push_back(std::move(described.mesh));
+        result.descriptors.push_back(std::move(described.descriptors));
+    }
     auto failure = failures.begin();
     for (std::size_t k = 0; k < entries.size(); ++k) {
         if (failure != failures.end() && failure->first == static_cast<int>(k)) {
@@ -287,7 +301,7 @@ Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& e
     collection.numbering =
         agree_on_numbering(comm, collection.local, collection.meshes.size(), options.oversegmentations);
     share_facts(comm, collection);
-    return collection;
+    return result;
 }
 
 }  // namespace coseg

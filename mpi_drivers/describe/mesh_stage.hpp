@@ -40,6 +40,12 @@ struct Collection {
     PatchNumbering numbering{1, {}};     ///< all ranks
 };
 
+/// What the first stage hands over: the meshes, and the descriptors that the next stage makes features of.
+struct DescribedCollection {
+    Collection collection;
+    std::vector<FaceDescriptors> descriptors;  ///< of collection.local, in its order
+};
+
 /// The meshes that a command line names, in the collection's order, on all ranks. Rank 0 alone asks the file system.
 /// Collective; throws AgreedError(input) as expand_mesh_list does.
 std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs);
@@ -48,8 +54,8 @@ std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::stri
 /// be null) descriptions are taken from its folder and kept there; throws AgreedError(output) if one cannot be
 /// written, AgreedError(checkpointed) if a rank has been asked to end.
 /// What each rank computes depends on the schedule; the result, apart from `owner` and `seconds`, does not.
-Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
-                               const RunOptions& options, const RunState* state, StageLog& log);
+DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                        const RunOptions& options, const RunState* state, StageLog& log);
 
 struct DescribeTotals {
     std::int64_t described = 0;

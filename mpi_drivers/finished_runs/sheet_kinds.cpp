@@ -151,10 +151,11 @@ std::string as_words(std::string name) {
 }
 
 DrawnKind drawn_descriptor(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
-                           std::size_t feature) {
+                           int row) {
     std::vector<std::vector<double>> values;
     agree(comm, [&] {
-        for (const LabelledMesh& shape : shapes) values.push_back(face_descriptors(run, shape)[feature]);
+        for (const LabelledMesh& shape : shapes)
+            values.push_back(shown_descriptors(run, shape, {row}).front());
     });
     const ValueRange range = agreed_range(comm, shapes, values, run.shapes.size());
     DrawnKind kind;
@@ -163,7 +164,7 @@ DrawnKind drawn_descriptor(const Comm& comm, const FinishedRun& run, const std::
         for (const double value : values[k]) colors.push_back(scale_color(value, range.low, range.high));
         kind.shapes.push_back(drawn(shapes[k], colors));
     }
-    kind.heading = {.title = as_words(feature_names[feature]),
+    kind.heading = {.title = as_words(descriptor_table()[at(row)].name),
                     .subtitle = counted(run.shapes.size(), "shape", "shapes"),
                     .legend = {},
                     .scale = ColorScaleBar{significant(range.low), significant(range.high)}};
@@ -174,7 +175,8 @@ DrawnKind drawn_descriptor(const Comm& comm, const FinishedRun& run, const std::
 
 std::vector<std::string> sheet_kinds() {
     std::vector<std::string> kinds = {"parts", "patches", "truth", "errors"};
-    kinds.insert(kinds.end(), feature_names.begin(), feature_names.end());
+    const std::vector<std::string> descriptors = descriptor_names();
+    kinds.insert(kinds.end(), descriptors.begin(), descriptors.end());
     return kinds;
 }
 
@@ -198,9 +200,10 @@ std::vector<Color> colors_of(const std::vector<int>& labels) {
 
 DrawnKind drawn_kind(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
                      const std::string& kind, const PartKey& key) {
-    const auto feature = std::find(feature_names.begin(), feature_names.end(), kind);
-    if (feature != feature_names.end())
-        return drawn_descriptor(comm, run, shapes, static_cast<std::size_t>(feature - feature_names.begin()));
+    const std::vector<std::string> descriptors = descriptor_names();
+    const auto row = std::find(descriptors.begin(), descriptors.end(), kind);
+    if (row != descriptors.end())
+        return drawn_descriptor(comm, run, shapes, static_cast<int>(row - descriptors.begin()));
     DrawnKind result;
     result.heading = parts_heading(run.part_area, static_cast<int>(run.shapes.size()));
     if (kind == "parts") {

@@ -36,8 +36,8 @@ void refuse_contradictions(const RunOptions& options) {
 /// The place of --feature among the features at hand.
 int chosen_feature(const PatchFeatures& features, const RunOptions& options) {
     if (variant_of(options.variant) != SubspaceVariant::single_feature) return 0;
-    for (std::size_t h = 0; h < features.feature_of.size(); ++h) {
-        if (feature_names[at(features.feature_of[h])] == options.feature) return static_cast<int>(h);
+    for (std::size_t h = 0; h < features.descriptors.size(); ++h) {
+        if (features.descriptors[h].name == options.feature) return static_cast<int>(h);
     }
     throw AgreedError(ExitCode::usage, "--feature " + options.feature +
                                            ": its weight is 0; give it a positive one in --feature-weights");
@@ -49,7 +49,7 @@ std::vector<std::string> feature_labels(const PatchFeatures& features, const Run
     if (variant != SubspaceVariant::multi_feature && variant != SubspaceVariant::independent)
         return {"concatenated"};
     std::vector<std::string> labels;
-    for (const int h : features.feature_of) labels.emplace_back(feature_names[at(h)]);
+    for (const Descriptor& descriptor : features.descriptors) labels.push_back(descriptor.name);
     return labels;
 }
 

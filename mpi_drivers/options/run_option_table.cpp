@@ -6,7 +6,7 @@
 #include "io/mesh_files/mesh_format.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
 #include "solvers/variants/subspace_variants.hpp"
-#include "src/descriptors/feature.hpp"
+#include "src/descriptors/descriptor_table.hpp"
 #include "src/pictures/shape_view.hpp"
 
 namespace coseg {
@@ -195,14 +195,40 @@ void RunOptionTable::add_patches_and_features(CLI::App& app) {
         "widths over all meshes)",
         patches_group)
         ->check(CLI::IsMember({"adapted", "global"}));
-    add(app, "feature-weights", options_.feature_weights,
-        "Weights of curvature, shape diameter, geodesic distance, shape context, conformal factor; 0 leaves "
-        "one out",
-        patches_group)
+    add_feature_weights(app);
+}
+
+void RunOptionTable::add_feature_weights(CLI::App& app) {
+    std::string phrases;
+    for (const Descriptor& row : descriptor_table()) phrases += (phrases.empty() ? "" : ", ") + row.phrase;
+    const std::vector<double> standard = default_descriptor_weights();
+    printers_.emplace_back("feature-weights", [this] { return printed(options_.feature_weights); });
+    // One text joined by commas: as a list of up to so many numbers it would take the inputs after it for weights.
+    app.add_option_function<std::string>(
+           "--feature-weights",
+           [this, standard](const std::string& text) {
+               std::vector<double> weights;
+               for (const std::string& number : CLI::detail::split(text, ','))
+                   weights.push_back(std::stod(number));
+               if (weights.size() > standard.size()) {
+                   throw CLI::ValidationError(
+                       "--feature-weights",
+                       "there are only " + std::to_string(standard.size()) + " descriptors");
+               }
+               // Those that are not given keep their default, so that a list for fewer descriptors stays what it was.
+               weights.insert(weights.end(), standard.begin() + static_cast<std::ptrdiff_t>(weights.size()),
+                              standard.end());
+               options_.feature_weights = std::move(weights);
+           },
+           "Weights of " + phrases +
+               "; 0 leaves one out, those at the end that are not given keep their default")
+        ->multi_option_policy(CLI::MultiOptionPolicy::Join)
         ->delimiter(',')
-        ->expected(5)
-        ->allow_extra_args(false)  // or the inputs after it would be taken for weights
-        ->check(CLI::Range(0.0, 1000.0));
+        ->check(CLI::Range(0.0, 1000.0))
+        ->check(finite_number)
+        ->type_name("NUMBER,...")
+        ->default_str(printed(standard))
+        ->group(patches_group);
 }
 
 void RunOptionTable::add_optimisation(CLI::App& app) {
@@ -213,7 +239,7 @@ void RunOptionTable::add_optimisation(CLI::App& app) {
         optimise_group)
         ->check(CLI::IsMember(variant_names()));
     add(app, "feature", options_.feature, "The feature of --variant single-feature", optimise_group)
-        ->check(CLI::IsMember(std::vector<std::string>(feature_names.begin(), feature_names.end())));
+        ->check(CLI::IsMember(descriptor_names()));
     add(app, "scope", options_.scope,
         "What lambda's squared sums run over: paper (whole rows), or mesh (the links of a patch to one mesh)",
         optimise_group)

@@ -1,7 +1,5 @@
 #include "mpi_drivers/options/run_options.hpp"
 
-#include "src/descriptors/feature.hpp"
-
 namespace coseg {
 
 namespace {
@@ -12,15 +10,23 @@ constexpr const char* single_prefix = "single:";
 void choose_descriptor_space(RunOptions& options) {
     options.oversegmentations = 1;
     options.cut_noise = 0.0;
-    options.feature_weights = {1.0, 1.0, 1.0, 1.0, 1.0};
+    options.feature_weights = equal_descriptor_weights();
     options.partition = "diffusion";
+}
+
+/// A descriptor that has no weight by default is asked for all the same.
+void give_weight(std::vector<double>& weights, const std::string& name) {
+    const std::vector<Descriptor>& table = descriptor_table();
+    for (std::size_t row = 0; row < table.size(); ++row) {
+        if (table[row].name == name && !(weights[row] > 0.0)) weights[row] = 1.0;
+    }
 }
 
 }  // namespace
 
 std::vector<std::string> preset_names() {
     std::vector<std::string> names = {"default", "paper"};
-    for (const char* feature : feature_names) names.push_back(std::string(single_prefix) + feature);
+    for (const std::string& descriptor : descriptor_names()) names.push_back(single_prefix + descriptor);
     names.insert(names.end(), {"independent", "concatenated", "descriptor-space"});
     return names;
 }
@@ -33,13 +39,14 @@ RunOptions preset_options(const std::string& preset) {
     if (preset.starts_with(single_prefix)) {
         options.variant = "single-feature";
         options.feature = preset.substr(std::string(single_prefix).size());
+        give_weight(options.feature_weights, options.feature);
     }
     if (preset == "paper") {
         options.oversegmentations = 1;
         options.cut_noise = 0.0;
         options.histogram = "unit-sum";
         options.ranges = "global";
-        options.feature_weights = {1.0, 1.0, 1.0, 1.0, 1.0};
+        options.feature_weights = equal_descriptor_weights();
         options.scope = "paper";
         options.lambda = 1000.0;
         options.affinity = "formula-8";

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "src/descriptors/descriptor_table.hpp"
+
 namespace coseg {
 
 struct RunOptions {
@@ -42,7 +44,8 @@ struct RunOptions {
     int word_sets = 1;
     std::string histogram = "square-root";
     std::string ranges = "adapted";
-    std::vector<double> feature_weights = {1.0, 0.5, 1.0, 2.0, 1.0};
+    std::vector<double> feature_weights =
+        default_descriptor_weights();  ///< of each row of descriptor_table()
 
     std::string variant = "multi-feature";
     std::string feature = "shape_diameter";  ///< variant single-feature only

@@ -183,7 +183,8 @@ Assigned assign_parts(const Comm& comm, const Collection& collection, const Patc
     optimisation.scope = "mesh";
     optimisation.links = static_cast<int>(model.mesh_names.size());
     optimisation.allowed_pairs = std::llround(figures.row(allowed).sum());
-    for (const int h : features.feature_of) optimisation.features.emplace_back(feature_names[at(h)]);
+    for (const Descriptor& descriptor : features.descriptors)
+        optimisation.features.push_back(descriptor.name);
     SparseCoefficients& none = optimisation.result.coefficients;
     none.size = static_cast<std::int64_t>(assigned.cut.part_of_patch.size());
     none.columns = block_range(none.size, comm.size(), comm.rank(), coefficient_tile);

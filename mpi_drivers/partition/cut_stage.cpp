@@ -68,23 +68,19 @@ CutOptions cut_options(const PatchFeatures& features, const RunOptions& options)
 std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, const RunOptions& options) {
     std::vector<ChoiceDescriptor> descriptors;
     if (!options.choose) return descriptors;
-    // Those that tell parts from each other in all of the labelled and generated collections; weights fitted on them,
-    // each family left out in turn (docs/method.md).
     for (std::size_t h = 0; h < features.histograms.size(); ++h) {
-        const auto feature = static_cast<Feature>(features.feature_of[h]);
-        const auto add = [&](BetweenPartVariance weight) {
-            descriptors.push_back({features.histograms[h].cast<float>(), weight});
-        };
-        if (feature == Feature::gaussian_curvature) add({.pooled = 0.0, .per_mesh = 1.4});
-        if (feature == Feature::shape_diameter) add({.pooled = 2.2, .per_mesh = 5.6});
+        const auto [pooled, per_mesh] = features.descriptors[h].partition;
+        if (pooled > 0.0 || per_mesh > 0.0)
+            descriptors.push_back(
+                {features.histograms[h].cast<float>(), {.pooled = pooled, .per_mesh = per_mesh}});
     }
     if (looks_at_positions(features, options))
         descriptors.push_back({features.positions.cast<float>(), {.pooled = 1.0, .per_mesh = 0.0}});
     return descriptors;
 }
 
-CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                         const SparseCoefficients& coefficients, const RunOptions& options) {
+CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const RunOptions& options) {
+    const auto& [collection, features, coefficients, choice] = input;
     const std::vector<int> mesh_of = collection.numbering.mesh_of();
     if (options.partition == "diffusion") {
         const DiffusionOptions diffusion{.parts = options.parts, .seed = options.seed};
@@ -93,12 +89,8 @@ CutResult cut_into_parts(const Comm& comm, const Collection& collection, const P
     }
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(collection);
-    const std::vector<ChoiceDescriptor> made =
-        features.choice.empty() ? choice_descriptors(features, options) : std::vector<ChoiceDescriptor>{};
-    const std::vector<ChoiceDescriptor>& descriptors = features.choice.empty() ? made : features.choice;
     return partition_patches(
-        comm,
-        {coefficients, neighbors, overlaps, mesh_of, features.patch_area, descriptors, &features.positions},
+        comm, {coefficients, neighbors, overlaps, mesh_of, features.patch_area, choice, &features.positions},
         cut_options(features, options));
 }
 

@@ -99,8 +99,8 @@ ContentHash hash_of_relations(const Comm& comm, const Collection& collection) {
     return hasher.result();
 }
 
-ContentHash cut_key(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                    const SparseCoefficients& coefficients, const std::string& options) {
+ContentHash cut_key(const Comm& comm, const PartitionInput& input, const std::string& options) {
+    const auto& [collection, features, coefficients, choice] = input;
     ContentHasher hasher;
     hasher.add(source_fingerprint());
     hasher.add(std::int64_t{cut_version});
@@ -112,7 +112,7 @@ ContentHash cut_key(const Comm& comm, const Collection& collection, const PatchF
     hasher.add(std::span<const double>(features.patch_area));
     hasher.add(std::span<const double>(features.positions.data(),
                                        static_cast<std::size_t>(features.positions.size())));
-    for (const ChoiceDescriptor& d : features.choice) {
+    for (const ChoiceDescriptor& d : choice) {
         const auto entries = static_cast<std::size_t>(d.histograms.size());
         hasher.add(std::span<const float>(d.histograms.data(), entries));
     }
@@ -220,13 +220,10 @@ CutResult read_cut(const std::string& path) {
             .chosen = static_cast<int>(file.integer("chosen"))};
 }
 
-CutResult PartitionCheckpoint::cut(const Collection& collection, const PatchFeatures& features,
-                                   const SparseCoefficients& coefficients, const RunOptions& options) {
+CutResult PartitionCheckpoint::cut(const PartitionInput& input, const RunOptions& options) {
     // Clusters of descriptors take no longer than looking them up.
-    if (options.partition == "diffusion")
-        return cut_into_parts(comm_, collection, features, coefficients, options);
-    const std::string file =
-        state_.folder().cut_file(cut_key(comm_, collection, features, coefficients, options_));
+    if (options.partition == "diffusion") return cut_into_parts(comm_, input, options);
+    const std::string file = state_.folder().cut_file(cut_key(comm_, input, options_));
     std::vector<std::string> damage;
     std::optional<CutResult> found;
     // Every rank reads, so that a file which one of them cannot read is given up by all.
@@ -249,7 +246,7 @@ CutResult PartitionCheckpoint::cut(const Collection& collection, const PatchFeat
         warnings_.push_back(damage.front() + "; it is set aside as " + aside.front() +
                             " and the cut is made anew");
     state_.end_if_asked(comm_, "all meshes and the optimiser's tiles");
-    CutResult cut = cut_into_parts(comm_, collection, features, coefficients, options);
+    CutResult cut = cut_into_parts(comm_, input, options);
     agree(comm_, [&] {
         if (!comm_.is_root()) return;
         make_parent_folders(file);
@@ -258,11 +255,9 @@ CutResult PartitionCheckpoint::cut(const Collection& collection, const PatchFeat
     return cut;
 }
 
-CutResult cut_or_found(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                       const SparseCoefficients& coefficients, const RunOptions& options,
+CutResult cut_or_found(const Comm& comm, const PartitionInput& input, const RunOptions& options,
                        PartitionCheckpoint* checkpoint) {
-    return checkpoint != nullptr ? checkpoint->cut(collection, features, coefficients, options)
-                                 : cut_into_parts(comm, collection, features, coefficients, options);
+    return checkpoint != nullptr ? checkpoint->cut(input, options) : cut_into_parts(comm, input, options);
 }
 
 }  // namespace coseg

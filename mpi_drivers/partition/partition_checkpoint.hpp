@@ -24,8 +24,7 @@ class PartitionCheckpoint {
 
     /// As cut_into_parts, from the folder if it is there. Collective; throws what cut_into_parts does, AgreedError(output) if
     /// the outcome cannot be written, AgreedError(checkpointed) if a rank has been asked to end before the cut.
-    CutResult cut(const Collection& collection, const PatchFeatures& features,
-                  const SparseCoefficients& coefficients, const RunOptions& options);
+    CutResult cut(const PartitionInput& input, const RunOptions& options);
 
     /// The same on all ranks: cuts that were found, and files that were damaged, a sentence each.
     [[nodiscard]] int found_count() const noexcept { return found_; }
@@ -40,8 +39,7 @@ class PartitionCheckpoint {
 };
 
 /// cut_into_parts, through the checkpoint if there is one. Collective; throws as PartitionCheckpoint::cut.
-CutResult cut_or_found(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                       const SparseCoefficients& coefficients, const RunOptions& options,
+CutResult cut_or_found(const Comm& comm, const PartitionInput& input, const RunOptions& options,
                        PartitionCheckpoint* checkpoint);
 
 /// A cut as a file. Throws Error(output).

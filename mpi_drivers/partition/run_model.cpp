@@ -73,18 +73,27 @@ RunOptions read_options(const Hdf5Reader& file) {
     return options;
 }
 
+void write_float_matrix(Hdf5Writer& file, const std::string& name, const Eigen::MatrixXf& matrix,
+                        bool compressed) {
+    file.write(name, std::span<const float>(matrix.data(), at(matrix.size())),
+               {at(matrix.cols()), at(matrix.rows())}, compressed);
+}
+
+std::string range_name(const Descriptor& descriptor) { return "ranges/" + descriptor.name; }
+std::string words_name(const Descriptor& descriptor, std::size_t set) {
+    return "words/" + descriptor.name + "/" + std::to_string(set);
+}
+
 void write_bins(Hdf5Writer& file, const PatchFeatures& features) {
-    std::size_t scalar = 0;
-    for (const int h : features.feature_of) {
-        if (static_cast<Feature>(h) == Feature::shape_context) continue;
-        const FeatureRange& range = features.bins.ranges[scalar++];
-        file.write(std::string("ranges/") + feature_names[at(h)], range.edges);
-    }
-    for (std::size_t set = 0; set < features.bins.words.size(); ++set) {
-        const Eigen::MatrixXf& words = features.bins.words[set];
-        file.write("words/" + std::to_string(set),
-                   std::span<const float>(words.data(), static_cast<std::size_t>(words.size())),
-                   {static_cast<std::uint64_t>(words.cols()), static_cast<std::uint64_t>(words.rows())});
+    for (std::size_t h = 0; h < features.bins.size(); ++h) {
+        const Descriptor& descriptor = features.descriptors[h];
+        if (const auto* range = std::get_if<FeatureRange>(&features.bins[h])) {
+            file.write(range_name(descriptor), range->edges);
+            continue;
+        }
+        const auto& words = std::get<std::vector<Eigen::MatrixXf>>(features.bins[h]);
+        for (std::size_t set = 0; set < words.size(); ++set)
+            write_float_matrix(file, words_name(descriptor, set), words[set], false);
     }
 }
 
@@ -95,17 +104,22 @@ Eigen::MatrixXf read_float_matrix(const Hdf5Reader& file, const std::string& nam
                                              static_cast<Eigen::Index>(extent.at(0)));
 }
 
+FeatureBins read_bins(const Hdf5Reader& file, const Descriptor& descriptor) {
+    if (descriptor.bins != BinKind::words)
+        return FeatureRange{RangeKind::global_percentile, file.read<double>(range_name(descriptor))};
+    std::vector<Eigen::MatrixXf> words;
+    for (std::size_t set = 0; file.has(words_name(descriptor, set)); ++set)
+        words.push_back(read_float_matrix(file, words_name(descriptor, set)));
+    return words;
+}
+
 void read_features(const Hdf5Reader& file, RunModel& model) {
-    for (int h = 0; h < feature_total; ++h) {
-        const std::string name = feature_names[at(h)];
-        if (!file.has("features/" + name)) continue;
-        model.feature_of.push_back(h);
-        model.histograms.push_back(read_float_matrix(file, "features/" + name).cast<double>());
-        if (static_cast<Feature>(h) != Feature::shape_context)
-            model.bins.ranges.push_back({RangeKind::global_percentile, file.read<double>("ranges/" + name)});
+    for (const Descriptor& descriptor : descriptor_table()) {
+        const std::string name = "features/" + descriptor.name;
+        if (!file.has(name)) continue;
+        model.histograms.push_back(read_float_matrix(file, name).cast<double>());
+        model.bins.push_back(read_bins(file, descriptor));
     }
-    for (int set = 0; file.has("words/" + std::to_string(set)); ++set)
-        model.bins.words.push_back(read_float_matrix(file, "words/" + std::to_string(set)));
 }
 
 bool fits_together(const RunModel& model) {
@@ -118,7 +132,8 @@ bool fits_together(const RunModel& model) {
         std::all_of(model.histograms.begin(), model.histograms.end(),
                     [&](const Eigen::MatrixXd& x) { return static_cast<std::size_t>(x.cols()) == patches; });
     return patches > 0 && !model.histograms.empty() && columns_fit && model.mesh_of.size() == patches &&
-           below(model.mesh_of, model.mesh_names.size()) && model.options.feature_weights.size() == 5 &&
+           below(model.mesh_of, model.mesh_names.size()) &&
+           model.options.feature_weights.size() == descriptor_table().size() &&
            below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.parts, 0)));
 }
 
@@ -134,10 +149,7 @@ void write_patches(Hdf5Writer& file, const Collection& collection, const PatchFe
     }
     for (const int p : patches.columns) parts.push_back(part_of_patch[at(p)]);
     for (std::size_t h = 0; h < patches.histograms.size(); ++h) {
-        const Eigen::MatrixXf& kept = patches.histograms[h];
-        file.write(std::string("features/") + feature_names[at(features.feature_of[h])],
-                   std::span<const float>(kept.data(), static_cast<std::size_t>(kept.size())),
-                   {static_cast<std::uint64_t>(kept.cols()), static_cast<std::uint64_t>(kept.rows())}, true);
+        write_float_matrix(file, "features/" + features.descriptors[h].name, patches.histograms[h], true);
     }
     file.write("mesh_of", mesh_of);
     file.write("part_of_patch", parts);

@@ -14,15 +14,14 @@ namespace coseg {
 
 inline constexpr const char* model_file = "model.h5";
 inline constexpr const char* model_format = "coseg model";
-inline constexpr int model_version = 1;
+inline constexpr int model_version = 2;
 
 /// The patches of the run's meshes, or of a hashed sample of them: as many meshes as a patch of a run is linked to
 /// (solvers/subspace/mesh_links.hpp), so that the file stays small for any collection.
 struct RunModel {
     RunOptions
         options;  ///< those on which descriptions, features, penalties and labels depend; defaults elsewhere
-    FeatureBins bins;
-    std::vector<int> feature_of;
+    std::vector<FeatureBins> bins;            ///< of each feature, in the order of the descriptors
     std::vector<Eigen::MatrixXd> histograms;  ///< as in PatchFeatures, rounded to single precision
     std::vector<int> mesh_of;                 ///< of each patch, 0 .. meshes kept - 1
     std::vector<std::string> mesh_names;      ///< of the meshes kept

@@ -131,7 +131,7 @@ PatchFeatures segment_features(const PatchFeatures& features, const Segments& se
         histograms.push_back(
             segment_histograms(features.histograms[h], features.patch_area, segments, options.histogram));
     result.histograms = histograms;
-    result.feature_of = features.feature_of;
+    result.descriptors = features.descriptors;
     result.patch_area.assign(at(segments.first_of.back()), 0.0);
     for (std::size_t i = 0; i < features.patch_area.size(); ++i)
         result.patch_area[at(segments.of_patch[i])] += features.patch_area[i] / oversegmentations;
@@ -148,8 +148,9 @@ CutResult partition_segments(const Comm& comm, const Collection& collection, con
     const PatchFeatures described =
         segment_features(features, segments, collection.numbering.oversegmentations(), options);
     const Optimisation optimisation = optimise(comm, whole, described, options, checkpoint);
-    const CutResult cut =
-        cut_or_found(comm, whole, described, optimisation.result.coefficients, options, cuts);
+    const PartitionInput input{whole, described, optimisation.result.coefficients,
+                         choice_descriptors(described, options)};
+    const CutResult cut = cut_or_found(comm, input, options, cuts);
     std::vector<int> part_of_patch;
     for (const int segment : segments.of_patch) part_of_patch.push_back(cut.part_of_patch[at(segment)]);
     CutResult result = described_partition(part_of_patch, options.parts, collection.numbering.mesh_of(),
