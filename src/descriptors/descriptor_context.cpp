@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "src/descriptors/wave_kernel_signature.hpp"
+
 namespace coseg {
 
 DescriptorContext::DescriptorContext(const TriMesh& mesh, const FaceGeometry& geometry,
@@ -22,6 +24,17 @@ const GeodesicTable& DescriptorContext::geodesics() {
     return *geodesics_;
 }
 
-void DescriptorContext::release() { geodesics_.reset(); }
+const LaplacianSpectrum& DescriptorContext::spectrum() {
+    if (!spectrum_) {
+        spectrum_ = laplacian_spectrum(mesh_, geometry_, graph_, wave_kernel_pairs);
+        step_end_("spectrum");
+    }
+    return *spectrum_;
+}
+
+void DescriptorContext::release() {
+    geodesics_.reset();
+    spectrum_.reset();
+}
 
 }  // namespace coseg

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "src/descriptors/laplacian_spectrum.hpp"
 #include "src/geodesics/geodesic.hpp"
 #include "src/mesh/dual_graph.hpp"
 #include "src/mesh/face_geometry.hpp"
@@ -13,7 +14,7 @@
 namespace coseg {
 
 /// What is made once for all descriptors of a mesh that ask for it, in the order of the work.
-enum class SharedPart { none, geodesics };
+enum class SharedPart { none, geodesics, spectrum };
 
 /// Told the name of a step of the work when that step ends.
 using StepEnd = std::function<void(const char* step)>;
@@ -33,6 +34,8 @@ class DescriptorContext {
 
     /// Made when it is first asked for; the largest thing that is held of a mesh.
     const GeodesicTable& geodesics();
+    /// The lowest eigenfunctions, made likewise.
+    const LaplacianSpectrum& spectrum();
 
     void end_step(const char* step) const { step_end_(step); }
 
@@ -47,6 +50,7 @@ class DescriptorContext {
     std::uint64_t seed_;
     StepEnd step_end_;
     std::optional<GeodesicTable> geodesics_;
+    std::optional<LaplacianSpectrum> spectrum_;
 };
 
 }  // namespace coseg

@@ -8,6 +8,7 @@
 #include "src/descriptors/gaussian_curvature.hpp"
 #include "src/descriptors/shape_context.hpp"
 #include "src/descriptors/shape_diameter.hpp"
+#include "src/descriptors/wave_kernel_signature.hpp"
 
 namespace coseg {
 
@@ -50,10 +51,29 @@ std::vector<Descriptor> made_table() {
          .weight = 1.0,
          .step = "conformal_factor",
          .values = [](Context& c) -> FaceValues { return conformal_factor(c.mesh(), c.geometry()); }},
+        {.name = "wave_kernel_signature",
+         .phrase = "wave kernel signature",
+         .bins = BinKind::words,
+         .shared = SharedPart::spectrum,
+         .step = "wave_kernel",
+         .values = [](Context& c) -> FaceValues {
+             return wave_kernel_signature(c.mesh(), c.geometry(), c.spectrum());
+         },
+         .shown = wave_kernel_level},
     };
 }
 
-const char* step_of(SharedPart part) { return part == SharedPart::geodesics ? "geodesics" : ""; }
+const char* step_of(SharedPart part) {
+    switch (part) {
+        case SharedPart::none:
+            return "";
+        case SharedPart::geodesics:
+            return "geodesics";
+        case SharedPart::spectrum:
+            return "spectrum";
+    }
+    return "";
+}
 
 /// By the shared part, so that no two of them are held at a time.
 std::vector<int> in_order_of_work(std::vector<int> rows) {
