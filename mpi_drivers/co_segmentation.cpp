@@ -54,6 +54,7 @@ void refuse_unused_petsc_options(const Comm& comm, const std::string& prefix) {
 
 void refuse_no_feature(const RunOptions& options) {
     const std::vector<double>& weights = options.feature_weights;
+    if (!options.face_features.empty() && options.face_feature_weight > 0.0) return;
     if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; })) return;
     throw AgreedError(ExitCode::usage, "--feature-weights: all are zero; give at least one that is positive");
 }
@@ -222,7 +223,7 @@ ReportState summarised(const Comm& comm, const RunState& state, const Checkpoint
 }
 
 PatchFeatures feature_stage(const Comm& comm, const Collection& collection,
-                            std::vector<FaceDescriptors> descriptors, const RunOptions& options,
+                            CollectionDescriptors descriptors, const RunOptions& options,
                             StageLog& log) {
     log.begin("features");
     PatchFeatures features = patch_features(comm, collection, std::move(descriptors), options);

@@ -39,6 +39,7 @@ RunOptions merged(const RunModel& model, const RunOptions& own) {
     options.json_log = own.json_log;
     options.keep_model = false;
     options.state = own.state;
+    options.face_features = own.face_features;
     options.sheet = own.sheet;
     options.html = own.html;
     options.view = own.view;
@@ -82,6 +83,26 @@ Verbosity verbosity_of(const RunOptions& options) {
     return options.verbose ? Verbosity::verbose : Verbosity::normal;
 }
 
+/// Features that users give must be given of the run's shapes and of the new ones, or of neither.
+void refuse_other_face_features(const RunModel& model, const AssignOptions& command) {
+    const bool is_given = !command.own.face_features.empty();
+    if (is_given && model.face_feature_dimensions == 0)
+        throw AgreedError(ExitCode::usage, command.run + " was made without --face-features; leave it out");
+    if (!is_given && model.face_feature_dimensions > 0)
+        throw AgreedError(ExitCode::usage, command.run +
+                                               " was made with --face-features; give it with the folder of "
+                                               "what the new shapes have");
+}
+
+void refuse_other_dimensions(const RunModel& model, const CollectionDescriptors& descriptors,
+                             const std::string& run) {
+    const int given = descriptors.table.back().given_dimensions;
+    if (given == model.face_feature_dimensions) return;
+    throw AgreedError(ExitCode::input, "--face-features: there are " + std::to_string(given) +
+                                           " numbers a face, but " + run + " was made with " +
+                                           std::to_string(model.face_feature_dimensions));
+}
+
 /// Collective over the invocation's ranks.
 void assign(const AssignOptions& command, const Invocation& invocation) {
     const Comm& world = invocation.world;
@@ -89,6 +110,7 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     const PetscSession session(invocation.petsc_arguments);
     RunModel model;
     agree(world, [&] { model = read_run_model(command.run); });
+    refuse_other_face_features(model, command);
     if (!model.same_build) {
         log.warn(command.run +
                  " was made by another build of coseg: if descriptors have changed since, labels suffer; "
@@ -101,6 +123,7 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     ResultFolder folder(world, options.out, options.force);
     DescribedCollection described = describe_new_shapes(world, options, state ? &*state : nullptr, log);
     const Collection& collection = described.collection;
+    refuse_other_dimensions(model, described.descriptors, command.run);
     const ReportState reused = summary(state ? &*state : nullptr, collection);
     log.begin("features");
     const PatchFeatures features =
@@ -154,6 +177,9 @@ Command add_assign_command(CLI::App& parent) {
     app->add_flag("--strict", own.strict,
                   "A mesh that cannot be used ends the command instead of being set aside");
     app->add_option("--state", own.state, "Folder that keeps descriptions of meshes, as of coseg run")
+        ->type_name("DIR");
+    app->add_option("--face-features", own.face_features,
+                    "Folder with what the run had of its shapes, of the new ones; see coseg run --help")
         ->type_name("DIR");
     app->add_option("--ranks", options->ranks,
                     "Ranks of a command that is started without mpirun; 0: one for each core")

@@ -180,27 +180,14 @@ void gather_patches(const Comm& comm, const Collection& collection, PatchFeature
     features.positions = all.bottomRows(3);
 }
 
-/// The rows of the table that have a weight, with this weight in place of the table's.
-std::vector<Descriptor> weighted_descriptors(const RunOptions& options) {
-    std::vector<Descriptor> weighted;
-    const std::vector<Descriptor>& table = descriptor_table();
-    for (std::size_t row = 0; row < table.size(); ++row) {
-        if (!(options.feature_weights.at(row) > 0.0)) continue;
-        weighted.push_back(table[row]);
-        weighted.back().weight = options.feature_weights[row];
-    }
-    return weighted;
-}
-
-/// Takes the values of one descriptor out of what is known of each mesh.
-std::vector<FaceValues> taken_values(std::vector<FaceDescriptors>& descriptors, const std::string& name) {
+/// Takes the values of one row out of what is known of each mesh.
+std::vector<FaceValues> taken_values(std::vector<FaceDescriptors>& descriptors, int row) {
     std::vector<FaceValues> values;
     for (FaceDescriptors& of_mesh : descriptors) {
-        const auto found = std::find_if(of_mesh.begin(), of_mesh.end(), [&](const FaceDescriptor& one) {
-            return descriptor_table()[at(one.row)].name == name;
-        });
+        const auto found = std::find_if(of_mesh.begin(), of_mesh.end(),
+                                        [&](const FaceDescriptor& one) { return one.row == row; });
         if (found == of_mesh.end())
-            throw Error(ExitCode::internal, "a mesh was described without its " + name);
+            throw Error(ExitCode::internal, "a mesh was described without descriptor " + std::to_string(row));
         values.push_back(std::move(found->values));
         of_mesh.erase(found);
     }
@@ -225,25 +212,29 @@ FeatureBins fill_feature(const Comm& comm, const FeatureInput& input, std::vecto
 }  // namespace
 
 PatchFeatures patch_features(const Comm& comm, const Collection& collection,
-                             std::vector<FaceDescriptors> descriptors, const RunOptions& options,
+                             CollectionDescriptors descriptors, const RunOptions& options,
                              const std::vector<FeatureBins>* given) {
     PatchFeatures features;
-    features.descriptors = weighted_descriptors(options);
-    std::vector<Eigen::Index> rows;
-    for (const Descriptor& descriptor : features.descriptors) {
-        const int sets = descriptor.bins == BinKind::words ? options.word_sets : 1;
-        rows.push_back(static_cast<Eigen::Index>(sets) * options.bins);
+    std::vector<int> of_row;  // the row of each feature
+    std::vector<Eigen::Index> heights;
+    for (std::size_t row = 0; row < descriptors.table.size(); ++row) {
+        const Descriptor& descriptor = descriptors.table[row];
+        if (!(descriptor.weight > 0.0)) continue;
+        features.descriptors.push_back(descriptor);
+        of_row.push_back(static_cast<int>(row));
+        heights.push_back(descriptor.bins == BinKind::words ? options.word_sets * options.bins
+                                                            : options.bins);
     }
-    features.histograms = FeatureMatrices(comm, rows, collection.numbering.patch_count());
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        const Descriptor& descriptor = features.descriptors[k];
-        const FeatureInput input{collection, descriptor, options, given != nullptr ? &given->at(k) : nullptr};
+    features.histograms = FeatureMatrices(comm, heights, collection.numbering.patch_count());
+    for (std::size_t k = 0; k < of_row.size(); ++k) {
+        const FeatureInput input{collection, features.descriptors[k], options,
+                                 given != nullptr ? &given->at(k) : nullptr};
         features.bins.push_back(
-            fill_feature(comm, input, taken_values(descriptors, descriptor.name), k, features));
+            fill_feature(comm, input, taken_values(descriptors.of_mesh, of_row[k]), k, features));
     }
     features.histograms.share(filled_columns(collection));
     gather_patches(comm, collection, features);
-    descriptors.clear();
+    descriptors.of_mesh.clear();
     malloc_trim(0);  // what the allocator holds in small pieces goes back: the next stages ask for large ones
     return features;
 }

@@ -37,11 +37,11 @@ struct PatchFeatures {
     std::vector<NamedRange> ranges;  ///< the bin range of every feature of numbers, for the report
 };
 
-/// descriptors: of the meshes collection.local, in their order; each is freed as soon as its feature is made.
+/// descriptors: each is freed as soon as its feature is made; rows without a weight are left out.
 /// given: the bins of an earlier collection, one for each feature, which are kept; null: they are made from this one.
 /// Collective; the same bits on every rank and on any number of ranks.
 PatchFeatures patch_features(const Comm& comm, const Collection& collection,
-                             std::vector<FaceDescriptors> descriptors, const RunOptions& options,
+                             CollectionDescriptors descriptors, const RunOptions& options,
                              const std::vector<FeatureBins>* given = nullptr);
 
 /// Says so where every rank has features of its own, for want of shared memory.

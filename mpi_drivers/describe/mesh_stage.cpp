@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "mpi_drivers/describe/face_features.hpp"
 #include "mpi_drivers/describe/kept_description.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -227,6 +228,16 @@ void share_facts(const Comm& comm, Collection& collection) {
 
 }  // namespace
 
+namespace {
+
+std::vector<Descriptor> weighted_table(const RunOptions& options) {
+    std::vector<Descriptor> table = descriptor_table();
+    for (std::size_t row = 0; row < table.size(); ++row) table[row].weight = options.feature_weights.at(row);
+    return table;
+}
+
+}  // namespace
+
 std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs) {
     std::vector<MeshEntry> entries;
     agree(comm, [&] {
@@ -284,7 +295,7 @@ DescribedCollection describe_collection(const Comm& comm, const std::vector<Mesh
     renumber(attempt.described, failures);
     for (DescribedMesh& described : attempt.described) {
         collection.local.push_back(std::move(described.mesh));
-        result.descriptors.push_back(std::move(described.descriptors));
+        result.descriptors.of_mesh.push_back(std::move(described.descriptors));
     }
     auto failure = failures.begin();
     for (std::size_t k = 0; k < entries.size(); ++k) {
@@ -301,6 +312,8 @@ DescribedCollection describe_collection(const Comm& comm, const std::vector<Mesh
     collection.numbering =
         agree_on_numbering(comm, collection.local, collection.meshes.size(), options.oversegmentations);
     share_facts(comm, collection);
+    result.descriptors.table = weighted_table(options);
+    if (!options.face_features.empty()) add_face_features(comm, result, options);
     return result;
 }
 

@@ -40,10 +40,16 @@ struct Collection {
     PatchNumbering numbering{1, {}};     ///< all ranks
 };
 
-/// What the first stage hands over: the meshes, and the descriptors that the next stage makes features of.
+/// The values of the faces that the features are made of.
+struct CollectionDescriptors {
+    std::vector<Descriptor> table;  ///< descriptor_table() with the run's weights, and what the user adds
+    std::vector<FaceDescriptors> of_mesh;  ///< of collection.local, in its order; `row` is of `table`
+};
+
+/// What the first stage hands over.
 struct DescribedCollection {
     Collection collection;
-    std::vector<FaceDescriptors> descriptors;  ///< of collection.local, in its order
+    CollectionDescriptors descriptors;
 };
 
 /// The meshes that a command line names, in the collection's order, on all ranks. Rank 0 alone asks the file system.

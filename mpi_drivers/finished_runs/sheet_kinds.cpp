@@ -136,7 +136,8 @@ ValueRange agreed_range(const Comm& comm, const std::vector<LabelledMesh>& shape
     }
     const std::vector<double> all = all_gather(comm, std::span<const double>(rows));
     std::vector<ValueRange> ranges(total);
-    for (std::size_t k = 0; k + 2 < all.size(); k += 3) ranges[static_cast<std::size_t>(all[k])] = {all[k + 1], all[k + 2]};
+    for (std::size_t k = 0; k + 2 < all.size(); k += 3)
+        ranges[static_cast<std::size_t>(all[k])] = {all[k + 1], all[k + 2]};
     ValueRange mean;
     for (const ValueRange& range : ranges) {
         mean.low += range.low / static_cast<double>(total);

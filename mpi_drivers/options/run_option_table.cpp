@@ -57,6 +57,13 @@ const CLI::Validator view_name(
     },
     "");
 
+/// Of all features that a run may have.
+std::vector<std::string> feature_names() {
+    std::vector<std::string> names = descriptor_names();
+    names.emplace_back(face_features_name);
+    return names;
+}
+
 }  // namespace
 
 template <class T>
@@ -81,7 +88,7 @@ CLI::Option* RunOptionTable::add_switch(CLI::App& app, const std::string& key, b
 RunOptionTable::RunOptionTable(CLI::App& app, RunOptions& options, OptionSet set) : options_(options) {
     add_input_and_output(app, set);
     if (set == OptionSet::run) add_picture(app);
-    add_patches_and_features(app);
+    add_patches_and_features(app, set);
     if (set == OptionSet::describe) return;
     add_optimisation(app);
     add_partition(app);
@@ -164,7 +171,7 @@ void RunOptionTable::add_state(CLI::App& app, OptionSet set) {
         ->check(CLI::Range(0.0, 1e9));
 }
 
-void RunOptionTable::add_patches_and_features(CLI::App& app) {
+void RunOptionTable::add_patches_and_features(CLI::App& app, OptionSet set) {
     add(app, "remesh", options_.remesh,
         "Even triangles inside the program: always, never, or auto: for meshes whose triangles are too long "
         "for "
@@ -196,6 +203,26 @@ void RunOptionTable::add_patches_and_features(CLI::App& app) {
         patches_group)
         ->check(CLI::IsMember({"adapted", "global"}));
     add_feature_weights(app);
+    add_face_features(app, set);
+}
+
+void RunOptionTable::add_face_features(CLI::App& app, OptionSet set) {
+    CLI::Option* folder = add(app, "face-features", options_.face_features,
+                              "Folder with numbers of yours for every face, NAME.npy or NAME.h5 (dataset "
+                              "features), faces x numbers: one "
+                              "more feature, binned, or by words where a face has several",
+                              patches_group)
+                              ->type_name("DIR");
+    if (set == OptionSet::describe) {
+        folder->check(CLI::Validator(
+            [](std::string&) {
+                return std::string("descriptions do not depend on it; give it to coseg run");
+            },
+            ""));
+    }
+    add(app, "face-feature-weight", options_.face_feature_weight, "Weight of what --face-features gives",
+        patches_group)
+        ->check(CLI::Range(0.0, 1000.0));
 }
 
 void RunOptionTable::add_feature_weights(CLI::App& app) {
@@ -239,7 +266,7 @@ void RunOptionTable::add_optimisation(CLI::App& app) {
         optimise_group)
         ->check(CLI::IsMember(variant_names()));
     add(app, "feature", options_.feature, "The feature of --variant single-feature", optimise_group)
-        ->check(CLI::IsMember(descriptor_names()));
+        ->check(CLI::IsMember(feature_names()));
     add(app, "scope", options_.scope,
         "What lambda's squared sums run over: paper (whole rows), or mesh (the links of a patch to one mesh)",
         optimise_group)

@@ -30,8 +30,9 @@ class RunOptionTable {
     void add_results(CLI::App& app);
     void add_state(CLI::App& app, OptionSet set);
     void add_picture(CLI::App& app);
-    void add_patches_and_features(CLI::App& app);
+    void add_patches_and_features(CLI::App& app, OptionSet set);
     void add_feature_weights(CLI::App& app);
+    void add_face_features(CLI::App& app, OptionSet set);
     void add_optimisation(CLI::App& app);
     void add_partition(CLI::App& app);
     template <class T>

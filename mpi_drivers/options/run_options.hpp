@@ -47,6 +47,9 @@ struct RunOptions {
     std::vector<double> feature_weights =
         default_descriptor_weights();  ///< of each row of descriptor_table()
 
+    std::string face_features;         ///< folder of what the user gives for every face; "": none
+    double face_feature_weight = 1.0;  ///< of these
+
     std::string variant = "multi-feature";
     std::string feature = "shape_diameter";  ///< variant single-feature only
     std::string scope = "mesh";

@@ -19,11 +19,11 @@ constexpr const char* cut_format = "coseg cut";
 constexpr int cut_version = 4;
 
 /// These change where things are, what is said or what is drawn.
-constexpr std::array<const char*, 18> without_effect{
-    "profile", "keep-model",  "out",          "state",   "checkpoint-seconds",
-    "config",  "force",       "quiet",        "verbose", "json-log",
-    "sheet",   "html",        "view",         "up",      "refine",
-    "strict",  "max-seconds", "keep-features"};
+constexpr std::array<const char*, 19> without_effect{
+    "profile", "keep-model",  "out",           "state",        "checkpoint-seconds",
+    "config",  "force",       "quiet",         "verbose",      "json-log",
+    "sheet",   "html",        "view",          "up",           "refine",
+    "strict",  "max-seconds", "keep-features", "face-features"};
 
 /// The hashes of this rank's pieces, gathered in the global order of the pieces.
 ContentHash hash_of_pieces(const Comm& comm, const std::vector<ContentHash>& pieces_local) {

@@ -43,6 +43,7 @@ void write_options(Hdf5Writer& file, const RunOptions& options) {
     file.attribute("histogram", options.histogram);
     file.attribute("ranges", options.ranges);
     file.write("feature-weights", options.feature_weights);
+    file.attribute("face-feature-weight", options.face_feature_weight);
     file.attribute("alpha", options.alpha);
     file.attribute("beta", options.beta);
     file.attribute("lambda", options.lambda);
@@ -65,6 +66,7 @@ RunOptions read_options(const Hdf5Reader& file) {
     options.histogram = file.text("histogram");
     options.ranges = file.text("ranges");
     options.feature_weights = file.read<double>("feature-weights");
+    options.face_feature_weight = file.number("face-feature-weight");
     options.alpha = file.number("alpha");
     options.beta = file.number("beta");
     options.lambda = file.number("lambda");
@@ -85,6 +87,8 @@ std::string words_name(const Descriptor& descriptor, std::size_t set) {
 }
 
 void write_bins(Hdf5Writer& file, const PatchFeatures& features) {
+    const int dimensions = features.descriptors.empty() ? 0 : features.descriptors.back().given_dimensions;
+    file.attribute("face-feature-dimensions", std::int64_t{dimensions});
     for (std::size_t h = 0; h < features.bins.size(); ++h) {
         const Descriptor& descriptor = features.descriptors[h];
         if (const auto* range = std::get_if<FeatureRange>(&features.bins[h])) {
@@ -114,7 +118,12 @@ FeatureBins read_bins(const Hdf5Reader& file, const Descriptor& descriptor) {
 }
 
 void read_features(const Hdf5Reader& file, RunModel& model) {
-    for (const Descriptor& descriptor : descriptor_table()) {
+    std::vector<Descriptor> table = descriptor_table();
+    model.face_feature_dimensions = static_cast<int>(file.integer("face-feature-dimensions"));
+    if (model.face_feature_dimensions > 0)
+        table.push_back(
+            face_features_descriptor(model.face_feature_dimensions, model.options.face_feature_weight));
+    for (const Descriptor& descriptor : table) {
         const std::string name = "features/" + descriptor.name;
         if (!file.has(name)) continue;
         model.histograms.push_back(read_float_matrix(file, name).cast<double>());

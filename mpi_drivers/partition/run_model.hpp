@@ -23,8 +23,9 @@ struct RunModel {
         options;  ///< those on which descriptions, features, penalties and labels depend; defaults elsewhere
     std::vector<FeatureBins> bins;            ///< of each feature, in the order of the descriptors
     std::vector<Eigen::MatrixXd> histograms;  ///< as in PatchFeatures, rounded to single precision
-    std::vector<int> mesh_of;                 ///< of each patch, 0 .. meshes kept - 1
-    std::vector<std::string> mesh_names;      ///< of the meshes kept
+    int face_feature_dimensions = 0;      ///< numbers a face that --face-features gave; 0: it was not given
+    std::vector<int> mesh_of;             ///< of each patch, 0 .. meshes kept - 1
+    std::vector<std::string> mesh_names;  ///< of the meshes kept
     std::vector<int> part_of_patch;
     bool same_build = true;  ///< written by this build of coseg
 };

@@ -149,7 +149,7 @@ CutResult partition_segments(const Comm& comm, const Collection& collection, con
         segment_features(features, segments, collection.numbering.oversegmentations(), options);
     const Optimisation optimisation = optimise(comm, whole, described, options, checkpoint);
     const PartitionInput input{whole, described, optimisation.result.coefficients,
-                         choice_descriptors(described, options)};
+                               choice_descriptors(described, options)};
     const CutResult cut = cut_or_found(comm, input, options, cuts);
     std::vector<int> part_of_patch;
     for (const int segment : segments.of_patch) part_of_patch.push_back(cut.part_of_patch[at(segment)]);

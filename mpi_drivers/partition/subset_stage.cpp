@@ -119,7 +119,7 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
         PartCollection part = part_of_collection(comm, collection, features, plan.subsets[s]);
         Optimisation optimised = optimise(comm, part.collection, part.features, options, checkpoint);
         const PartitionInput input{part.collection, part.features, optimised.result.coefficients,
-                             choice_descriptors(part.features, options)};
+                                   choice_descriptors(part.features, options)};
         const CutResult cut = cut_or_found(comm, input, options, cuts);
         take_columns(comm, optimised.result.coefficients, part.patch_of, columns);
         add(outcome.optimisation, std::move(optimised), s == 0);

@@ -90,6 +90,14 @@ const std::vector<Descriptor>& descriptor_table() {
     return table;
 }
 
+Descriptor face_features_descriptor(int dimensions, double weight) {
+    return {.name = face_features_name,
+            .phrase = "features given for faces",
+            .bins = dimensions > 1 ? BinKind::words : BinKind::global_percentile,
+            .weight = weight,
+            .given_dimensions = dimensions};
+}
+
 std::vector<std::string> descriptor_names() {
     std::vector<std::string> names;
     for (const Descriptor& row : descriptor_table()) names.push_back(row.name);

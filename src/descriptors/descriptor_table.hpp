@@ -36,8 +36,9 @@ struct Descriptor {
     PartitionWeight partition{};
     SharedPart shared = SharedPart::none;  ///< what of the context it asks for
     const char* step = "";                 ///< of the work, for the table of times
-    /// Values for the faces of a mesh, free of its scale; vectors exactly where `bins` are words.
+    /// Values for the faces of a mesh, free of its scale; vectors exactly where `bins` are words. Null: given by the user.
     FaceValues (*values)(DescriptorContext& context) = nullptr;
+    int given_dimensions = 0;  ///< numbers a face of values that the user gives; 0 for other rows
     /// Words only: one number per face that pictures and exports show.
     Eigen::VectorXd (*shown)(const Eigen::MatrixXf& values) = nullptr;
 };
@@ -45,13 +46,18 @@ struct Descriptor {
 /// In the order in which features are numbered and --feature-weights are given.
 const std::vector<Descriptor>& descriptor_table();
 
+/// The row of what users give for every face, which a run adds to its table: numbers, or vectors of `dimensions`. Numbers of all
+/// meshes are compared as they are.
+inline constexpr const char* face_features_name = "face_features";
+Descriptor face_features_descriptor(int dimensions, double weight);
+
 /// Of every row of the table.
 std::vector<std::string> descriptor_names();
 std::vector<double> default_descriptor_weights();
 /// 1 for each row that counts by default, 0 for the others.
 std::vector<double> equal_descriptor_weights();
 
-/// The values of one row of the table.
+/// The values of one row of a table.
 struct FaceDescriptor {
     int row = 0;
     FaceValues values;
