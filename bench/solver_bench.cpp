@@ -241,7 +241,7 @@ ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& resu
     return {{"clusters", clusters},
             {"seconds", coseg::all_max(comm, clock.seconds())},
             {"cpu_seconds", coseg::all_max(comm, cpu)},
-            {"eigenvalues", cut.starts.front().eigenvalues},
+            {"eigenvalues", cut.eigenvalues},
             {"set_aside", cut.starts.front().set_aside},
             {"peak_megabytes_so_far", memory.peak_megabytes(comm)}};
 }

@@ -2,8 +2,9 @@
 # What jobs/quickstart.sh and tests/run.sh share: the build folder, and how ranks are started on one machine.
 # Sets `root`, the project's folder, and `build`.
 
-# Asked before OMP_NUM_THREADS is set below, which nproc would take for the number of cores.
-cores=$(nproc)
+# The cores that this process may use. nproc takes OMP_NUM_THREADS and OMP_THREAD_LIMIT for their number; clusters set the
+# former to 1, and the build would then use one core of many.
+cores=$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
 

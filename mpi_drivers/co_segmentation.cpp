@@ -285,7 +285,7 @@ void co_segment(const Comm& comm, const RunOptions& options,
         partition_stage(comm, collection, features, options, checkpoints ? &*checkpoints : nullptr, log);
     const Optimisation& optimisation = partitioned.optimisation;
     const CutResult& cut = partitioned.cut;
-    ReportState state_summary;
+    std::optional<ReportState> state_summary;
     if (checkpoints) {
         state_summary = summarised(comm, *state, *checkpoints, collection);
         for (const std::string& warning : checkpoints->tiles.warnings()) log.warn(warning);

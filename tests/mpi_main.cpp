@@ -1,10 +1,13 @@
-// Runs GoogleTest on every rank; a failure on any rank fails the run, and every rank's failures are printed.
+// Runs the distributed tests, or those of one source (--tests-of), on every rank. A failure on any rank fails
+// the run, and every rank's failures are printed.
 
 #include <gtest/gtest.h>
 #include <mpi.h>
 #include <slepceps.h>
 
 #include <string>
+
+#include "tests/support/tests_of_file.hpp"
 
 namespace {
 
@@ -25,6 +28,7 @@ class FailurePrinter : public testing::EmptyTestEventListener {
 
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
+    if (!choose_tests_of_file(argc, argv)) return 1;
     if (SlepcInitialize(&argc, &argv, nullptr, nullptr) != 0) return 1;
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);

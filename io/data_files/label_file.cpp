@@ -21,7 +21,7 @@ std::vector<int> read_labels(const std::string& path, int expected_count) {
         const bool fits = parse_integer(word, label) && label >= std::numeric_limits<int>::min() &&
                           label <= std::numeric_limits<int>::max();
         if (!fits || !cursor.word().empty()) {
-            cursor.fail("a label file has one integer a line, but this line has " + quoted(word) +
+            cursor.fail("a label file has one integer a line, but this line has " + in_quotes(word) +
                         (fits ? " and more" : ""));
         }
         labels.push_back(static_cast<int>(label));

@@ -7,7 +7,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
+
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -20,6 +23,10 @@ struct ContentHash {
 
     /// 32 hexadecimal digits, as `xxhsum -H2` prints them.
     [[nodiscard]] std::string hex() const;
+
+    static constexpr auto fields() {
+        return std::tuple(field("high", &ContentHash::high), field("low", &ContentHash::low));
+    }
 };
 
 ContentHash hash_bytes(std::string_view bytes);

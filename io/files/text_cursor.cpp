@@ -83,7 +83,7 @@ bool parse_integer(std::string_view word, std::int64_t& value) {
     return cause == std::errc() && end == word.data() + word.size() && !word.empty();
 }
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
     constexpr std::size_t longest = 40;
     std::string shown = "'";
     for (const char c : word.substr(0, longest)) shown += c >= ' ' && c <= '~' ? c : '?';

@@ -53,6 +53,6 @@ bool parse_real(std::string_view word, double& value);
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 /// The word in quotes for messages, shortened and without unprintable bytes.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 }  // namespace coseg

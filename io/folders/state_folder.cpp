@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "coseg-state";
+constexpr const char* mark_name = "coseg-state";
 constexpr const char* mark_text = "coseg state 1\n";
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, const std::error_code& cause) {
@@ -37,7 +37,7 @@ std::string absolute_folder(const std::string& directory) {
 }
 
 bool is_marked(const std::string& path) {
-    std::ifstream file(path + "/" + mark);
+    std::ifstream file(path + "/" + mark_name);
     std::string line;
     return std::getline(file, line) && line + "\n" == mark_text;
 }
@@ -57,7 +57,7 @@ bool is_temporary(const fs::path& path) {
 bool holds_other_things(const std::string& path) {
     std::error_code cause;
     for (fs::directory_iterator entry(path, cause), end; !cause && entry != end; entry.increment(cause)) {
-        if (!entry->path().filename().string().starts_with(mark)) return true;
+        if (!entry->path().filename().string().starts_with(mark_name)) return true;
     }
     if (cause) fail(path, "the state folder cannot be read", cause);
     return false;
@@ -93,7 +93,7 @@ StateFolder StateFolder::make(const std::string& directory) {
                                           ": holds other files and is no state folder; name a new or "
                                           "empty folder with --state");
     }
-    write_file(folder.path_ + "/" + mark, mark_text);
+    write_file(folder.path_ + "/" + mark_name, mark_text);
     return folder;
 }
 
@@ -101,7 +101,7 @@ StateFolder StateFolder::open(const std::string& directory) {
     StateFolder folder(absolute_folder(directory));
     if (!is_marked(folder.path_)) {
         throw Error(ExitCode::input,
-                    folder.path_ + ": is no state folder (it has no file " + mark + "); check the path");
+                    folder.path_ + ": is no state folder (it has no file " + mark_name + "); check the path");
     }
     return folder;
 }

@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
+
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -11,6 +14,10 @@ struct MeshEntry {
     std::string name;  ///< the file's name without folder and extension; unique in a collection
     std::string path;
     std::uintmax_t bytes = 0;  ///< the file's size
+    static constexpr auto fields() {
+        return std::tuple(field("name", &MeshEntry::name), field("path", &MeshEntry::path),
+                          field("bytes", &MeshEntry::bytes));
+    }
 };
 
 /// Expands MESH | DIRECTORY | @LIST ... into meshes sorted by name (byte order).

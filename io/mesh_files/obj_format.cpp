@@ -49,7 +49,7 @@ class ObjReader {
             const std::string_view word = cursor_.word();
             if (!parse_real(word, point[k])) {
                 cursor_.fail("vertex " + std::to_string(vertex_count()) +
-                             " needs three coordinates, but one is " + quoted(word));
+                             " needs three coordinates, but one is " + in_quotes(word));
             }
             if (!is_usable_coordinate(point[k])) cursor_.fail(bad_coordinate(vertex_count(), point[k]));
         }
@@ -89,7 +89,7 @@ class ObjReader {
     int vertex_number(std::string_view word) {
         std::int64_t index = 0;
         if (!parse_integer(word.substr(0, word.find('/')), index)) {
-            cursor_.fail("face " + std::to_string(face_count()) + " has " + quoted(word) +
+            cursor_.fail("face " + std::to_string(face_count()) + " has " + in_quotes(word) +
                          " where a vertex number should stand");
         }
         const std::int64_t number = index < 0 ? vertex_count() + index : index - 1;

@@ -50,7 +50,7 @@ class OffReader {
             cursor_.fail("only three coordinates a vertex are understood; export the mesh as plain OFF");
         }
         if (keyword.substr(0, 3) != "OFF")
-            cursor_.fail("an OFF file begins with OFF, this one with " + quoted(keyword));
+            cursor_.fail("an OFF file begins with OFF, this one with " + in_quotes(keyword));
         keyword.remove_prefix(3);  // some collections write the first count right behind: "OFF490 518 0"
         const std::string_view first = keyword.empty() ? cursor_.word_on_any_line() : keyword;
         if (first == "BINARY")
@@ -63,7 +63,7 @@ class OffReader {
         std::int64_t value = 0;
         if (word.empty()) cursor_.fail("the file ends in its header, before the number of " + what);
         if (!parse_integer(word, value) || value < 0 || value > most_vertices) {
-            cursor_.fail("the number of " + what + " in the header is " + quoted(word) +
+            cursor_.fail("the number of " + what + " in the header is " + in_quotes(word) +
                          ", which is no count");
         }
         return value;
@@ -76,7 +76,7 @@ class OffReader {
             const std::string_view word = cursor_.word();
             if (!parse_real(word, point[k])) {
                 cursor_.fail("vertex " + std::to_string(v) + " needs three coordinates, but one is " +
-                             quoted(word));
+                             in_quotes(word));
             }
             if (!is_usable_coordinate(point[k])) cursor_.fail(bad_coordinate(v, point[k]));
         }
@@ -88,7 +88,7 @@ class OffReader {
         const std::string_view first = cursor_.word();
         std::int64_t corners = 0;
         if (!parse_integer(first, corners) || corners < 1) {
-            cursor_.fail("face " + std::to_string(f) + " begins with " + quoted(first) +
+            cursor_.fail("face " + std::to_string(f) + " begins with " + in_quotes(first) +
                          " instead of its number of corners");
         }
         for (std::int64_t k = 0; k < corners; ++k) read_corner(f);
@@ -101,7 +101,7 @@ class OffReader {
         if (word.empty()) fail_at_end(f, face_count_, "faces");
         std::int64_t index = 0;
         if (!parse_integer(word, index)) {
-            cursor_.fail("face " + std::to_string(f) + " has " + quoted(word) +
+            cursor_.fail("face " + std::to_string(f) + " has " + in_quotes(word) +
                          " where a vertex number should stand");
         }
         if (index < 0 || index >= vertex_count_) cursor_.fail(bad_index(f, index, vertex_count_));

@@ -18,7 +18,7 @@ PlyScalar scalar_named(std::string_view word, const TextCursor& cursor) {
         {"float", float32}, {"float32", float32}, {"double", float64}, {"float64", float64}};
     const auto found = names.find(word);
     if (found == names.end())
-        cursor.fail("the header has " + quoted(word) + " where a PLY type should stand");
+        cursor.fail("the header has " + in_quotes(word) + " where a PLY type should stand");
     return found->second;
 }
 
@@ -48,7 +48,7 @@ class HeaderReader {
         if (!cursor_.next_line()) cursor_.fail("the file is empty; export the mesh again");
         const std::string_view magic = cursor_.word();
         if (magic != "ply" && magic != "PLY")
-            cursor_.fail("a PLY file begins with 'ply', this one with " + quoted(magic));
+            cursor_.fail("a PLY file begins with 'ply', this one with " + in_quotes(magic));
         while (cursor_.next_line()) {
             const std::string_view keyword = cursor_.word();
             if (keyword == "end_header") return finish();
@@ -59,7 +59,7 @@ class HeaderReader {
             else if (keyword == "property")
                 read_property();
             else if (keyword != "comment" && keyword != "obj_info")
-                cursor_.fail("the header has no statement " + quoted(keyword));
+                cursor_.fail("the header has no statement " + in_quotes(keyword));
         }
         cursor_.fail("the file ends in its header, before 'end_header'; export the mesh again");
     }
@@ -77,7 +77,7 @@ class HeaderReader {
         header_.is_binary = format != "ascii";
         header_.is_big_endian = format == "binary_big_endian";
         if (header_.is_binary && !header_.is_big_endian && format != "binary_little_endian") {
-            cursor_.fail("the PLY format " + quoted(format) + " is unknown");
+            cursor_.fail("the PLY format " + in_quotes(format) + " is unknown");
         }
         has_format_ = true;
     }
@@ -88,7 +88,7 @@ class HeaderReader {
         const std::string_view count = cursor_.word();
         if (!parse_integer(count, element.count) || element.count < 0 ||
             element.count > std::numeric_limits<int>::max()) {
-            cursor_.fail("the number of elements " + quoted(element.name) + " is " + quoted(count) +
+            cursor_.fail("the number of elements " + in_quotes(element.name) + " is " + in_quotes(count) +
                          ", which is no count");
         }
         header_.elements.push_back(std::move(element));

@@ -63,12 +63,12 @@ class FacetCollector {
     CornerWelder welder_;
 };
 
-char in_lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+char lower_case_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool same_word(std::string_view word, std::string_view lower_case) {
     return word.size() == lower_case.size() &&
            std::equal(word.begin(), word.end(), lower_case.begin(),
-                      [](char a, char b) { return in_lower_case(a) == b; });
+                      [](char a, char b) { return lower_case_letter(a) == b; });
 }
 
 /// An ASCII file's digits, rounded as a binary file would hold them, so that a mesh has the same labels from
@@ -91,7 +91,7 @@ class StlTextReader {
             } else if (is_inside && same_word(keyword, "facet")) {
                 read_facet();
             } else {
-                cursor_.fail("an STL file has 'facet' or 'endsolid' here, not " + quoted(keyword));
+                cursor_.fail("an STL file has 'facet' or 'endsolid' here, not " + in_quotes(keyword));
             }
         }
         if (is_inside)
@@ -107,7 +107,7 @@ class StlTextReader {
     void expect(std::string_view lower_case) {
         const std::string_view word = cursor_.word_on_any_line();
         if (same_word(word, lower_case)) return;
-        cursor_.fail("facet " + number() + " has " + quoted(word) + " where '" + std::string(lower_case) +
+        cursor_.fail("facet " + number() + " has " + in_quotes(word) + " where '" + std::string(lower_case) +
                      "' should stand");
     }
 
@@ -132,7 +132,8 @@ class StlTextReader {
         const std::string_view word = cursor_.word_on_any_line();
         double value = 0.0;
         if (!parse_real(word, value))
-            cursor_.fail("facet " + number() + " has " + quoted(word) + " where a coordinate should stand");
+            cursor_.fail("facet " + number() + " has " + in_quotes(word) +
+                         " where a coordinate should stand");
         if (!is_usable_coordinate(value)) {
             cursor_.fail("facet " + number() +
                          " has a coordinate that is not finite or beyond 1e37; correct it");
@@ -153,6 +154,7 @@ PolygonMesh read_binary(std::string_view bytes, std::uint32_t facet_count, const
         Eigen::Vector3f normal;
         for (float& value : normal.reshaped()) cursor.read(value);
         Facet facet;
+        facet.fill(Eigen::Vector3f::Zero());
         for (Eigen::Vector3f& corner : facet) {
             for (float& value : corner.reshaped()) {
                 cursor.read(value);

@@ -1,142 +1,144 @@
 #pragma once
 // DIR/report.json: what was run, with what, how long it took and what came out. Format: docs/formats.md.
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "src/records/affinity_picture.hpp"
+#include "src/records/fields.hpp"
+#include "src/records/mesh_facts.hpp"
+#include "src/records/named_range.hpp"
+#include "src/records/optimisation_facts.hpp"
+#include "src/records/solve_summary.hpp"
+#include "src/records/stage_times.hpp"
+#include "src/records/start_outcome.hpp"
+
 namespace coseg {
 
-struct ReportStep {
-    std::string step;
-    double seconds = 0.0;  ///< sum over ranks
-};
-
-struct ReportStage {
-    std::string stage;
-    double seconds_min = 0.0;  ///< over ranks, a rank's own work
-    double seconds_mean = 0.0;
-    double seconds_max = 0.0;
-    double seconds_wall = 0.0;
-    std::vector<ReportStep> steps;  ///< empty where the stage does not tell
-};
-
 struct ReportMesh {
-    std::string name;
-    std::string path;
-    int faces = 0;          ///< in the file
-    int working_faces = 0;  ///< after repair, remeshing and refinement
-    bool remeshed = false;
-    double overlong_area = 0.0;  ///< share of the area in triangles too long for patches
-    int patches = 0;             ///< over all over-segmentations
-    int rank = 0;
-    double seconds = 0.0;
+    MeshFacts facts;
+    int patches = 0;                ///< over all over-segmentations
     std::vector<double> part_area;  ///< share of the mesh's area, per part
-    std::vector<std::string> warnings;
-};
-
-struct ReportRange {
-    std::string feature;
-    std::string kind;
-    double low = 0.0;
-    double high = 0.0;
-};
-
-/// The optimiser after a pass over all pairs.
-struct ReportPass {
-    int pass = 0;  ///< from 1
-    int iterations = 0;
-    double objective = 0.0;
-    double lower_bound = 0.0;
-    double relative_gap = 0.0;
-    std::int64_t working_pairs = 0;
+    static constexpr auto fields() {
+        return std::tuple(inlined(&ReportMesh::facts), field("patches", &ReportMesh::patches),
+                          field("part_area", &ReportMesh::part_area));
+    }
 };
 
 struct ReportOptimisation {
-    std::string variant;
-    std::string scope;
-    int links = 0;  ///< meshes in which a patch may have matches, at most
-    int subsets = 1;
-    int common_meshes = 0;
-    double subset_agreement = 1.0;
-    std::int64_t allowed_pairs = 0;
+    OptimisationFacts facts;
     std::int64_t patches = 0;
-    double objective = 0.0;
-    double objective_at_zero = 0.0;
-    double lower_bound = 0.0;
-    double relative_gap = 0.0;
-    double kkt_residual = 0.0;
-    int iterations = 0;
-    std::int64_t nonzero_groups = 0;
-    std::string reason;
-    std::vector<ReportPass> history;
+    SolveSummary solution;
+    static constexpr auto fields() {
+        return std::tuple(inlined(&ReportOptimisation::facts), field("patches", &ReportOptimisation::patches),
+                          inlined(&ReportOptimisation::solution));
+    }
 };
 
-struct ReportStart {
-    double adjacency = 0.0;
-    bool placed = false;  ///< links weighed by place
-    int clusters = 0;
-    std::string merging;  ///< the rule that merged the clusters
-    double score = 0.0;
-    double concavity = 0.0;
-    double presence = 0.0;
-    double link_consistency = 0.0;
-    std::vector<double> explained_common;  ///< per descriptor that the choice looks at
-    std::vector<double> explained_own;
+/// Three unit vectors in the axes of the files, ascending by how well the positions of linked patches agree
+/// along them.
+struct ReportPlaces {
+    Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();  ///< one a column
+    Eigen::Vector3d correlations = Eigen::Vector3d::Zero();
+    static constexpr auto fields() {
+        return std::tuple(field("directions", &ReportPlaces::directions),
+                          field("correlations", &ReportPlaces::correlations));
+    }
+};
+
+struct ReportPartition {
+    std::vector<double> eigenvalues;  ///< of the chosen start's graph
+    std::vector<StartOutcome> starts;
+    int chosen_start = 0;
+    ReportPlaces places;
+    std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
+    AffinityPicture affinity;
+    static constexpr auto fields() {
+        return std::tuple(
+            field("eigenvalues", &ReportPartition::eigenvalues), field("starts", &ReportPartition::starts),
+            field("chosen_start", &ReportPartition::chosen_start), field("places", &ReportPartition::places),
+            field("part_area", &ReportPartition::part_area), field("affinity", &ReportPartition::affinity));
+    }
 };
 
 struct ReportStrength {
     std::string feature;
     double overall = 0.0;             ///< share of the coefficients' sum
     std::vector<double> within_part;  ///< the same inside each part
+    static constexpr auto fields() {
+        return std::tuple(field("feature", &ReportStrength::feature),
+                          field("overall", &ReportStrength::overall),
+                          field("within_part", &ReportStrength::within_part));
+    }
+};
+
+struct ReportFeatures {
+    std::vector<NamedRange> ranges;
+    std::vector<ReportStrength> strengths;
+    std::vector<std::int64_t> pairs_by_feature_count;  ///< pairs with 1, 2, ... nonzero features
+    std::vector<double> inside_part;  ///< per part: share of its columns that stays inside it
+    std::vector<std::vector<double>> coefficient_blocks;  ///< parts x parts: share of all, row x column
+    static constexpr auto fields() {
+        return std::tuple(field("ranges", &ReportFeatures::ranges),
+                          field("strengths", &ReportFeatures::strengths),
+                          field("pairs_by_feature_count", &ReportFeatures::pairs_by_feature_count),
+                          field("inside_part", &ReportFeatures::inside_part),
+                          field("coefficient_blocks", &ReportFeatures::coefficient_blocks));
+    }
 };
 
 /// With --state: what was there already and what had to be computed.
 struct ReportState {
-    std::string folder;  ///< empty without --state
+    std::string folder;
     std::int64_t meshes_reused = 0;
     std::int64_t meshes_described = 0;
     std::int64_t tiles_reused = 0;  ///< of the optimiser
     std::int64_t tiles_solved = 0;
     std::int64_t cuts_reused = 0;
+    static constexpr auto fields() {
+        return std::tuple(field("folder", &ReportState::folder),
+                          field("meshes_reused", &ReportState::meshes_reused),
+                          field("meshes_described", &ReportState::meshes_described),
+                          field("tiles_reused", &ReportState::tiles_reused),
+                          field("tiles_solved", &ReportState::tiles_solved),
+                          field("cuts_reused", &ReportState::cuts_reused));
+    }
 };
 
 struct Report {
-    std::vector<std::pair<std::string, std::string>> options;
-    std::vector<std::pair<std::string, std::string>> versions;
     int ranks = 0;
     double seconds = 0.0;
     double peak_memory_sum_mib = 0.0;  ///< sum over ranks of each rank's peak resident memory
     double peak_memory_max_mib = 0.0;
-    ReportState state;
-    std::vector<ReportStage> stages;
-    std::vector<ReportMesh> meshes;
-    std::vector<std::pair<std::string, std::string>> set_aside;  ///< path and reason
-    std::vector<ReportRange> ranges;
+    std::vector<StageTimes> stages;
     ReportOptimisation optimisation;
-    std::vector<std::string> affinity_rows;  ///< the affinity as a picture: docs/formats.md
-    std::vector<int> affinity_part_ends;
-    std::vector<double> eigenvalues;
-    std::vector<ReportStart> starts;
-    int chosen_start = 0;
-    /// Three unit vectors in the axes of the files, ascending by how well the positions of linked patches
-    /// agree along them.
-    std::vector<std::vector<double>> position_directions;
-    std::vector<double> position_correlations;
-    std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
-    std::vector<ReportStrength> feature_strengths;
-    /// Per part: share of the coefficients of its columns that stay inside it.
-    std::vector<double> inside_part;
-    /// Parts x parts: share of all coefficients, row x column.
-    std::vector<std::vector<double>> coefficient_blocks;
-    std::vector<std::int64_t> pairs_by_feature_count;  ///< pairs with 1, 2, ... nonzero features
+    ReportPartition partition;
+    ReportFeatures features;
+    std::optional<ReportState> state;
+    std::vector<ReportMesh> meshes;
+    std::vector<SetAside> set_aside;
+    static constexpr auto fields() {
+        return std::tuple(field("ranks", &Report::ranks), field("seconds", &Report::seconds),
+                          field("peak_memory_sum_mib", &Report::peak_memory_sum_mib),
+                          field("peak_memory_max_mib", &Report::peak_memory_max_mib),
+                          field("stages", &Report::stages), field("optimisation", &Report::optimisation),
+                          field("partition", &Report::partition), field("features", &Report::features),
+                          field("state", &Report::state), field("meshes", &Report::meshes),
+                          field("set_aside", &Report::set_aside));
+    }
 };
 
-/// The history as the report has it: the text of a JSON array.
-std::string history_json(const std::vector<ReportPass>& history);
+/// Names and what belongs to them, as texts.
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// Throws Error(output) if the file cannot be written.
-void write_report(const std::string& path, const Report& report);
+/// options: every option as resolved; those that are numbers or truth values are written so. Throws
+/// Error(output) if the file cannot be written.
+void write_report(const std::string& path, const NamedTexts& versions, const NamedTexts& options,
+                  const Report& report);
 
 }  // namespace coseg

@@ -3,10 +3,12 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "src/pictures/picture_mesh.hpp"
 #include "src/pictures/shape_view.hpp"
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -17,8 +19,13 @@ std::string packed_mesh(const TriMesh& mesh, const std::vector<int>& labels,
                         const std::vector<bool>& is_wrong);
 
 struct PageShape {
+    int number = 0;                  ///< in the run
     std::string packed;              ///< packed_mesh; empty if the shape is in the table only
     std::optional<double> accuracy;  ///< 0..1, where the truth is known
+    static constexpr auto fields() {
+        return std::tuple(field("number", &PageShape::number), field("packed", &PageShape::packed),
+                          field("accuracy", &PageShape::accuracy));
+    }
 };
 
 struct ReportPage {

@@ -69,9 +69,9 @@ DescribedCollection describe_new_shapes(const Comm& world, const RunOptions& opt
     return result;
 }
 
-ReportState summary(const RunState* state, const Collection& collection) {
+std::optional<ReportState> summary(const RunState* state, const Collection& collection) {
+    if (state == nullptr) return std::nullopt;
     ReportState reused;
-    if (state == nullptr) return reused;
     reused.folder = state->folder().path();
     for (const MeshFacts& mesh : collection.meshes)
         ++(mesh.reused ? reused.meshes_reused : reused.meshes_described);
@@ -113,8 +113,8 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     refuse_other_face_features(model, command);
     if (!model.same_build) {
         log.warn(command.run +
-                 " was made by another build of coseg: if descriptors have changed since, labels suffer; "
-                 "run coseg run again to be sure");
+                 " was made by a coseg that computes features from other sources or settings: where these "
+                 "differ in result, labels suffer; run coseg run again to be sure");
     }
     const RunOptions options = merged(model, command.own);
     std::optional<RunState> state;
@@ -124,7 +124,7 @@ void assign(const AssignOptions& command, const Invocation& invocation) {
     DescribedCollection described = describe_new_shapes(world, options, state ? &*state : nullptr, log);
     const Collection& collection = described.collection;
     refuse_other_dimensions(model, described.descriptors, command.run);
-    const ReportState reused = summary(state ? &*state : nullptr, collection);
+    const std::optional<ReportState> reused = summary(state ? &*state : nullptr, collection);
     log.begin("features");
     const PatchFeatures features =
         patch_features(world, collection, std::move(described.descriptors), options, &model.bins);

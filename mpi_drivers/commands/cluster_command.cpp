@@ -16,6 +16,7 @@
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -37,16 +38,6 @@ struct ClusterSettings {
     SolveOptions options{.gap = 1e-4};
 };
 
-void broadcast(const Comm& comm, std::vector<int>& values) {
-    if (!comm.is_root()) values.clear();
-    values = all_gather(comm, std::span<const int>(values));
-}
-
-void broadcast(const Comm& comm, std::vector<double>& values) {
-    if (!comm.is_root()) values.clear();
-    values = all_gather(comm, std::span<const double>(values));
-}
-
 /// A message about matrices, in the terms of the file.
 std::string in_terms_of(const FeatureFile& file, const std::string& path, const std::string& message) {
     std::string names;
@@ -62,7 +53,7 @@ FeatureFile read_and_broadcast(const Comm& comm, const std::string& path, Featur
     agree(comm, [&] {
         if (comm.is_root()) file = read_feature_file(path);
     });
-    broadcast_texts(comm, file.names);
+    broadcast(comm, file.names);
     try {
         features = share_matrices(comm, file.features);
     } catch (const AgreedError& error) {
@@ -71,7 +62,7 @@ FeatureFile read_and_broadcast(const Comm& comm, const std::string& path, Featur
     file.features.clear();
     broadcast(comm, file.mesh_of);
     broadcast(comm, file.patch_area);
-    broadcast_texts(comm, file.mesh_names);
+    broadcast(comm, file.mesh_names);
     return file;
 }
 
@@ -161,7 +152,7 @@ nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveResult
                  {"scope", problem.scope == PenaltyScope::meshes ? "mesh" : "paper"},
                  {"parts", settings.parts},
                  {"items_of_part", sizes}});
-    if (!result.starts.empty()) json["eigenvalues"] = result.starts.front().eigenvalues;
+    if (!result.starts.empty()) json["eigenvalues"] = result.eigenvalues;
     return json;
 }
 

@@ -12,6 +12,7 @@
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
 #include "src/base/stopwatch.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -30,23 +31,18 @@ struct SolveSettings {
 };
 
 /// Rank 0 reads; the others learn of a bad file before they wait for its content.
-ProblemFile read_and_broadcast(const Comm& comm, const std::string& path, FeatureMatrices& features) {
+ProblemFile broadcast_problem(const Comm& comm, const std::string& path, FeatureMatrices& features) {
     ProblemFile file;
     agree(comm, [&] {
         if (comm.is_root()) file = read_problem_file(path);
     });
-    double numbers[3] = {file.lambda, file.alpha, file.beta};
-    MPI_Bcast(numbers, 3, MPI_DOUBLE, 0, comm.raw());
-    file.lambda = numbers[0];
-    file.alpha = numbers[1];
-    file.beta = numbers[2];
+    for (double* penalty : {&file.lambda, &file.alpha, &file.beta}) broadcast(comm, *penalty);
     features = share_matrices(comm, file.features);
     file.features.clear();
     return file;
 }
 
-SubspaceProblem make_problem(const ProblemFile& file, FeatureMatrices features,
-                             const SolveSettings& settings) {
+SubspaceProblem problem_of(const ProblemFile& file, FeatureMatrices features, const SolveSettings& settings) {
     SubspaceProblem problem;
     problem.features = std::move(features);
     problem.lambda = file.lambda;
@@ -72,8 +68,8 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
             "over all pairs");
     }
     FeatureMatrices features;
-    const ProblemFile file = read_and_broadcast(comm, settings.path, features);
-    const SubspaceProblem problem = make_problem(file, std::move(features), settings);
+    const ProblemFile file = broadcast_problem(comm, settings.path, features);
+    const SubspaceProblem problem = problem_of(file, std::move(features), settings);
     const Stopwatch clock;
     const SolveResult result =
         solve_variant(comm, problem, variant_of(settings.variant), settings.feature - 1, settings.options);

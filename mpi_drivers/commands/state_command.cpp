@@ -11,6 +11,7 @@
 #include "io/folders/state_lock.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "src/base/text.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -60,7 +61,7 @@ void verify(const Comm& world, const StateOptions& options) {
         if (!world.is_root()) return;
         for (const StateFile& file : StateFolder::open(options.directory).files()) paths.push_back(file.path);
     });
-    broadcast_texts(world, paths);
+    broadcast(world, paths);
     std::vector<std::string> damaged;
     for (std::size_t k = static_cast<std::size_t>(world.rank()); k < paths.size();
          k += static_cast<std::size_t>(world.size())) {
@@ -70,7 +71,7 @@ void verify(const Comm& world, const StateOptions& options) {
             damaged.emplace_back(error.what());
         }
     }
-    damaged = all_gather_texts(world, damaged);
+    damaged = all_gather_records(world, damaged);
     if (world.is_root()) {
         for (const std::string& sentence : damaged) std::cout << sentence << '\n';
         std::cout << paths.size() - damaged.size() << " of " << paths.size() << " files are whole"

@@ -200,7 +200,7 @@ ContentHash description_key(std::string_view bytes, const std::string& name, con
     const auto& [seed, remesh, patches, oversegmentations, cut_noise, geodesic_samples, descriptors] =
         options;
     ContentHasher hasher;
-    hasher.add(source_fingerprint());
+    hasher.add(source_fingerprint(KeptPiece::descriptions));
     hasher.add(std::int64_t{description_version});
     hasher.add(std::filesystem::path(path).extension().string());
     hasher.add(name);
@@ -220,7 +220,7 @@ void write_description(const std::string& file_path, const DescribedMesh& descri
     const MeshDescription& description = described.mesh;
     Hdf5Writer file(file_path, description_format, description_version);
     file.attribute("name", name);
-    file.attribute("source_fingerprint", source_fingerprint());
+    file.attribute("source_fingerprint", source_fingerprint(KeptPiece::descriptions));
     write_options(file, options);
     file.summary("mesh " + name + ", " + std::to_string(description.geometry.area.size()) + " faces, seed " +
                  std::to_string(options.seed) + ", " + std::to_string(options.oversegmentations) + " x " +

@@ -13,15 +13,9 @@
 #include "src/histograms/feature_range.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
+#include "src/records/named_range.hpp"
 
 namespace coseg {
-
-struct NamedRange {
-    std::string feature;
-    std::string kind;
-    double low = 0.0;
-    double high = 0.0;
-};
 
 /// What turns the values of faces into bins, so that shapes that come later fall into the same ones: a range for numbers;
 /// for vectors the centres of the words, d x words for every set.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "mpi_drivers/options/run_options.hpp"
@@ -14,6 +15,7 @@
 #include "src/mesh/face_geometry.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 #include "src/patches/mesh_patch_pairs.hpp"
+#include "src/records/fields.hpp"
 #include "src/repair/mesh_repair.hpp"
 
 namespace coseg {
@@ -48,6 +50,11 @@ struct OverlapsOfPair {
     int oversegmentation_a = 0;  ///< a < b
     int oversegmentation_b = 0;
     std::vector<PatchOverlap> overlaps;
+    static constexpr auto fields() {
+        return std::tuple(field("oversegmentation_a", &OverlapsOfPair::oversegmentation_a),
+                          field("oversegmentation_b", &OverlapsOfPair::oversegmentation_b),
+                          field("overlaps", &OverlapsOfPair::overlaps));
+    }
 };
 
 struct MeshDescription {

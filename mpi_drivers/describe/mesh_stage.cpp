@@ -4,21 +4,34 @@
 #include <chrono>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "mpi_drivers/describe/face_features.hpp"
 #include "mpi_drivers/describe/kept_description.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/record_exchange.hpp"
 #include "src/parallel/shared_counter.hpp"
 
 namespace coseg {
 
 namespace {
 
+/// A mesh that cannot be used.
+struct Failure {
+    int entry = 0;
+    ExitCode code = ExitCode::input;
+    std::string sentence;
+    static constexpr auto fields() {
+        return std::tuple(field("entry", &Failure::entry), field("code", &Failure::code),
+                          field("sentence", &Failure::sentence));
+    }
+};
+
 struct Attempt {
     std::vector<DescribedMesh> described;  ///< numbered by entry
-    std::vector<std::pair<int, Error>> failed;
+    std::vector<Failure> failed;
 };
 
 /// Large meshes first, so that no rank is left alone with one at the end.
@@ -36,13 +49,13 @@ bool attempt_one(Attempt& attempt, int number, const MeshEntry& entry, const Des
     try {
         attempt.described.push_back(kept_description(number, entry, options, folder));
     } catch (const Error& error) {
-        attempt.failed.emplace_back(number, error);
+        attempt.failed.push_back({number, error.code(), error.what()});
         return error.code() != ExitCode::output;
     } catch (const std::bad_alloc&) {
-        attempt.failed.emplace_back(
-            number, Error(ExitCode::internal, entry.path + ": out of memory; use more nodes"));
+        attempt.failed.push_back(
+            {number, ExitCode::internal, entry.path + ": out of memory; use more nodes"});
     } catch (const std::exception& error) {
-        attempt.failed.emplace_back(number, Error(ExitCode::internal, entry.path + ": " + error.what()));
+        attempt.failed.push_back({number, ExitCode::internal, entry.path + ": " + error.what()});
     }
     return true;
 }
@@ -108,29 +121,16 @@ Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& en
 }
 
 /// Failures of all ranks, by entry, on all ranks.
-std::vector<std::pair<int, Error>> gather_failures(const Comm& comm, const Attempt& attempt) {
-    std::vector<int> numbers;
-    std::vector<std::string> sentences;
-    for (const auto& [number, error] : attempt.failed) {
-        numbers.push_back(number);
-        numbers.push_back(static_cast<int>(error.code()));
-        sentences.emplace_back(error.what());
-    }
-    const std::vector<int> all_numbers = all_gather(comm, std::span<const int>(numbers));
-    const std::vector<std::string> all_sentences = all_gather_texts(comm, sentences);
-    std::vector<std::pair<int, Error>> failures;
-    for (std::size_t k = 0; k < all_sentences.size(); ++k) {
-        failures.emplace_back(all_numbers[2 * k],
-                              Error(static_cast<ExitCode>(all_numbers[2 * k + 1]), all_sentences[k]));
-    }
+std::vector<Failure> gather_failures(const Comm& comm, const Attempt& attempt) {
+    std::vector<Failure> failures = all_gather_records(comm, attempt.failed);
     std::sort(failures.begin(), failures.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+              [](const Failure& a, const Failure& b) { return a.entry < b.entry; });
     return failures;
 }
 
-void refuse_if_unwritable(const std::vector<std::pair<int, Error>>& failures) {
-    for (const auto& [number, error] : failures) {
-        if (error.code() == ExitCode::output) throw AgreedError(error.code(), error.what());
+void refuse_if_unwritable(const std::vector<Failure>& failures) {
+    for (const Failure& failure : failures) {
+        if (failure.code == ExitCode::output) throw AgreedError(failure.code, failure.sentence);
     }
 }
 
@@ -140,90 +140,61 @@ void end_if_asked(const Comm& comm, const RunState& state, const Attempt& attemp
     state.end_if_asked(comm, std::to_string(described) + " of " + std::to_string(entries) + " meshes");
 }
 
-void refuse_if_unusable(const std::vector<std::pair<int, Error>>& failures, std::size_t entries,
-                        bool strict) {
+void refuse_if_unusable(const std::vector<Failure>& failures, std::size_t entries, bool strict) {
     if (failures.empty()) return;
-    const Error& first = failures.front().second;
-    if (strict) throw AgreedError(first.code(), first.what());
+    const Failure& first = failures.front();
+    if (strict) throw AgreedError(first.code, first.sentence);
     if (failures.size() < entries) return;
     const std::string rest =
         entries > 1 ? " (and no other of the " + std::to_string(entries) + " meshes can be used)" : "";
-    throw AgreedError(first.code(), first.what() + rest);
+    throw AgreedError(first.code, first.sentence + rest);
 }
 
 /// Renumbers the usable meshes of this rank: an entry's number less the unusable entries before it.
-void renumber(std::vector<DescribedMesh>& described, const std::vector<std::pair<int, Error>>& failures) {
+void renumber(std::vector<DescribedMesh>& described, const std::vector<Failure>& failures) {
     auto failure = failures.begin();  // both ascend
     for (DescribedMesh& one : described) {
-        while (failure != failures.end() && failure->first < one.mesh.mesh) ++failure;
+        while (failure != failures.end() && failure->entry < one.mesh.mesh) ++failure;
         one.mesh.mesh -= static_cast<int>(failure - failures.begin());
     }
 }
 
-/// Fills `values_global` (rows x meshes) with what each rank knows of its own meshes, zero elsewhere before.
-std::vector<int> share_integers(const Comm& comm, std::vector<int> values_local) {
-    std::vector<int> values_global(values_local.size());
-    MPI_Allreduce(values_local.data(), values_global.data(), static_cast<int>(values_local.size()), MPI_INT,
-                  MPI_SUM, comm.raw());
-    return values_global;
+/// What the rank that describes a mesh tells the others.
+struct ToldMesh {
+    int mesh = 0;
+    MeshFacts facts;
+    std::vector<int> patch_counts;  ///< per over-segmentation
+    static constexpr auto fields() {
+        return std::tuple(field("mesh", &ToldMesh::mesh), field("facts", &ToldMesh::facts),
+                          field("patch_counts", &ToldMesh::patch_counts));
+    }
+};
+
+ToldMesh told(const MeshDescription& description, const MeshFacts& named, int rank) {
+    ToldMesh mesh{description.mesh, named, description.patch_counts};
+    mesh.facts.owner = rank;
+    mesh.facts.input_faces = description.input.face_count();
+    mesh.facts.working_faces = description.graph.face_count;
+    mesh.facts.remeshed = description.remeshed;
+    mesh.facts.overlong_area = description.overlong_area;
+    mesh.facts.seconds = description.seconds;
+    mesh.facts.reused = description.reused;
+    mesh.facts.warnings = description.warnings;
+    return mesh;
 }
 
-PatchNumbering agree_on_numbering(const Comm& comm, const std::vector<MeshDescription>& local,
-                                  std::size_t meshes, int oversegmentations) {
-    std::vector<int> counts(meshes * static_cast<std::size_t>(oversegmentations), 0);
-    for (const MeshDescription& description : local) {
-        for (int s = 0; s < oversegmentations; ++s) {
-            counts[at(description.mesh * oversegmentations + s)] = description.patch_counts[at(s)];
-        }
+/// Completes the facts of all meshes, whose names are known, and numbers their patches. Collective.
+void share_facts(const Comm& comm, Collection& collection, int oversegmentations) {
+    std::vector<ToldMesh> local;
+    for (const MeshDescription& description : collection.local)
+        local.push_back(told(description, collection.meshes[at(description.mesh)], comm.rank()));
+    std::vector<int> counts(collection.meshes.size() * at(oversegmentations));
+    for (ToldMesh& mesh : all_gather_records(comm, local)) {
+        collection.meshes[at(mesh.mesh)] = std::move(mesh.facts);
+        std::copy(mesh.patch_counts.begin(), mesh.patch_counts.end(),
+                  counts.begin() + std::ptrdiff_t{mesh.mesh} * oversegmentations);
     }
-    return {oversegmentations, share_integers(comm, std::move(counts))};
-}
-
-void share_warnings(const Comm& comm, Collection& collection) {
-    std::vector<int> owners;
-    std::vector<std::string> sentences;
-    for (const MeshDescription& description : collection.local) {
-        for (const std::string& warning : description.warnings) {
-            owners.push_back(description.mesh);
-            sentences.push_back(warning);
-        }
-    }
-    const std::vector<int> all_owners = all_gather(comm, std::span<const int>(owners));
-    const std::vector<std::string> all_sentences = all_gather_texts(comm, sentences);
-    for (std::size_t k = 0; k < all_sentences.size(); ++k) {
-        collection.meshes[at(all_owners[k])].warnings.push_back(all_sentences[k]);
-    }
-}
-
-void share_facts(const Comm& comm, Collection& collection) {
-    constexpr std::size_t rows = 5;
-    const std::size_t meshes = collection.meshes.size();
-    std::vector<int> facts(rows * meshes, 0);
-    std::vector<double> measures(2 * meshes, 0.0);
-    for (const MeshDescription& description : collection.local) {
-        const auto m = static_cast<std::size_t>(description.mesh);
-        facts[rows * m] = comm.rank();
-        facts[rows * m + 1] = description.input.face_count();
-        facts[rows * m + 2] = description.graph.face_count;
-        facts[rows * m + 3] = description.remeshed ? 1 : 0;
-        measures[2 * m] = description.seconds;
-        measures[2 * m + 1] = description.overlong_area;
-        facts[rows * m + 4] = description.reused ? 1 : 0;
-    }
-    facts = share_integers(comm, std::move(facts));
-    MPI_Allreduce(MPI_IN_PLACE, measures.data(), static_cast<int>(measures.size()), MPI_DOUBLE, MPI_SUM,
-                  comm.raw());
-    for (std::size_t m = 0; m < meshes; ++m) {
-        MeshFacts& mesh = collection.meshes[m];
-        mesh.owner = facts[rows * m];
-        mesh.input_faces = facts[rows * m + 1];
-        mesh.working_faces = facts[rows * m + 2];
-        mesh.remeshed = facts[rows * m + 3] != 0;
-        mesh.seconds = measures[2 * m];
-        mesh.overlong_area = measures[2 * m + 1];
-        mesh.reused = facts[rows * m + 4] != 0;
-    }
-    share_warnings(comm, collection);
+    collection.numbering = {oversegmentations, std::move(counts)};
 }
 
 }  // namespace
@@ -243,26 +214,14 @@ std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::stri
     agree(comm, [&] {
         if (comm.is_root()) entries = expand_mesh_list(inputs);
     });
-    std::vector<std::string> names;
-    std::vector<std::string> paths;
-    std::vector<std::string> sizes;
-    for (const MeshEntry& entry : entries) {
-        names.push_back(entry.name);
-        paths.push_back(entry.path);
-        sizes.push_back(std::to_string(entry.bytes));
-    }
-    broadcast_texts(comm, names);
-    broadcast_texts(comm, paths);
-    broadcast_texts(comm, sizes);
-    entries.resize(names.size());
-    for (std::size_t k = 0; k < names.size(); ++k) entries[k] = {names[k], paths[k], std::stoull(sizes[k])};
+    broadcast(comm, entries);
     return entries;
 }
 
 DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry>& entries,
                                    const RunOptions& options, const RunState& state, StageLog& log) {
     const Attempt attempt = describe_dealt_meshes(comm, entries, options, &state, Keep::nothing, log);
-    const std::vector<std::pair<int, Error>> failures = gather_failures(comm, attempt);
+    const std::vector<Failure> failures = gather_failures(comm, attempt);
     refuse_if_unwritable(failures);
     end_if_asked(comm, state, attempt, entries.size());
     if (!failures.empty()) refuse_if_unusable(failures, entries.size(), options.strict);
@@ -276,16 +235,16 @@ DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry
     }
     totals.reused = all_sum(comm, reused);
     totals.described = all_sum(comm, static_cast<std::int64_t>(attempt.described.size())) - totals.reused;
-    totals.warnings = all_gather_texts(comm, warnings);
-    for (const auto& [number, error] : failures)
-        totals.set_aside.push_back({entries[at(number)].path, error.what()});
+    totals.warnings = all_gather_records(comm, warnings);
+    for (const Failure& failure : failures)
+        totals.set_aside.push_back({entries[at(failure.entry)].path, failure.sentence});
     return totals;
 }
 
 DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
                                         const RunOptions& options, const RunState* state, StageLog& log) {
     Attempt attempt = describe_dealt_meshes(comm, entries, options, state, Keep::all, log);
-    const std::vector<std::pair<int, Error>> failures = gather_failures(comm, attempt);
+    const std::vector<Failure> failures = gather_failures(comm, attempt);
     refuse_if_unwritable(failures);
     if (state != nullptr) end_if_asked(comm, *state, attempt, entries.size());
     refuse_if_unusable(failures, entries.size(), options.strict);
@@ -299,8 +258,8 @@ DescribedCollection describe_collection(const Comm& comm, const std::vector<Mesh
     }
     auto failure = failures.begin();
     for (std::size_t k = 0; k < entries.size(); ++k) {
-        if (failure != failures.end() && failure->first == static_cast<int>(k)) {
-            collection.set_aside.push_back({entries[k].path, failure->second.what()});
+        if (failure != failures.end() && failure->entry == static_cast<int>(k)) {
+            collection.set_aside.push_back({entries[k].path, failure->sentence});
             ++failure;
         } else {
             MeshFacts mesh;
@@ -309,9 +268,7 @@ DescribedCollection describe_collection(const Comm& comm, const std::vector<Mesh
             collection.meshes.push_back(std::move(mesh));
         }
     }
-    collection.numbering =
-        agree_on_numbering(comm, collection.local, collection.meshes.size(), options.oversegmentations);
-    share_facts(comm, collection);
+    share_facts(comm, collection, options.oversegmentations);
     result.descriptors.table = weighted_table(options);
     if (!options.face_features.empty()) add_face_features(comm, result, options);
     return result;

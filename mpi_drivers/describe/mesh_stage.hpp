@@ -11,27 +11,9 @@
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
 #include "src/patches/patch_numbering.hpp"
+#include "src/records/mesh_facts.hpp"
 
 namespace coseg {
-
-/// What every rank knows of a mesh; `mesh` counts usable meshes only, in the collection's order.
-struct MeshFacts {
-    std::string name;
-    std::string path;
-    int owner = 0;  ///< the rank that holds its description
-    int input_faces = 0;
-    int working_faces = 0;
-    bool remeshed = false;
-    double overlong_area = 0.0;  ///< see src/remesh/face_suitability.hpp
-    double seconds = 0.0;
-    bool reused = false;  ///< its description came from the state folder
-    std::vector<std::string> warnings;
-};
-
-struct SetAside {
-    std::string path;
-    std::string reason;
-};
 
 struct Collection {
     std::vector<MeshFacts> meshes;       ///< usable meshes, all ranks

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "src/base/index.hpp"
 #include "src/base/text.hpp"
 #include "src/mesh/polygon_area.hpp"
+#include "src/parallel/record_exchange.hpp"
 #include "src/pictures/color_scale.hpp"
 #include "src/pictures/part_colors.hpp"
 
@@ -120,24 +122,26 @@ double quantile(std::vector<double> values, double share) {
     return *place;
 }
 
+/// Of one shape, or of all.
 struct ValueRange {
+    int shape = 0;
     double low = 0.0;
     double high = 0.0;
+    static constexpr auto fields() {
+        return std::tuple(field("shape", &ValueRange::shape), field("low", &ValueRange::low),
+                          field("high", &ValueRange::high));
+    }
 };
 
 /// The mean over shapes of each shape's 2nd and 98th percentile, summed in the order of the shapes.
 ValueRange agreed_range(const Comm& comm, const std::vector<LabelledMesh>& shapes,
                         const std::vector<std::vector<double>>& values, std::size_t total) {
-    std::vector<double> rows;
-    for (std::size_t k = 0; k < shapes.size(); ++k) {
-        rows.push_back(shapes[k].number);
-        rows.push_back(quantile(values[k], 0.02));
-        rows.push_back(quantile(values[k], 0.98));
-    }
-    const std::vector<double> all = all_gather(comm, std::span<const double>(rows));
-    std::vector<ValueRange> ranges(total);
-    for (std::size_t k = 0; k + 2 < all.size(); k += 3)
-        ranges[static_cast<std::size_t>(all[k])] = {all[k + 1], all[k + 2]};
+    std::vector<ValueRange> ranges;
+    for (std::size_t k = 0; k < shapes.size(); ++k)
+        ranges.push_back({shapes[k].number, quantile(values[k], 0.02), quantile(values[k], 0.98)});
+    ranges = all_gather_records(comm, ranges);
+    std::sort(ranges.begin(), ranges.end(),
+              [](const ValueRange& a, const ValueRange& b) { return a.shape < b.shape; });
     ValueRange mean;
     for (const ValueRange& range : ranges) {
         mean.low += range.low / static_cast<double>(total);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 #include "io/reports/png_writer.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/exact_sum.hpp"
+#include "src/parallel/record_exchange.hpp"
 #include "src/pictures/shape_picture.hpp"
 
 namespace coseg {
@@ -54,35 +56,26 @@ View agreed_widest(const Comm& comm, const std::vector<const DrawnShape*>& looke
     return views[first];
 }
 
-/// Pictures of one page on the root, in the order of the shapes; elsewhere empty.
-std::vector<SheetTile> gathered_tiles(const Comm& comm, const std::vector<int>& numbers_local,
-                                      const std::vector<SheetTile>& tiles_local, int size) {
-    const std::vector<int> numbers = all_gather(comm, std::span<const int>(numbers_local));
-    std::vector<std::string> captions_local;
-    std::vector<std::uint8_t> bytes_local;
-    for (const SheetTile& tile : tiles_local) {
-        captions_local.push_back(tile.caption);
-        bytes_local.insert(bytes_local.end(), tile.picture.bytes.begin(), tile.picture.bytes.end());
+/// The picture of the shape of this number.
+struct NumberedTile {
+    int number = 0;
+    std::string caption;
+    std::vector<std::uint8_t> pixels;
+    static constexpr auto fields() {
+        return std::tuple(field("number", &NumberedTile::number), field("caption", &NumberedTile::caption),
+                          field("pixels", &NumberedTile::pixels));
     }
-    const std::vector<std::string> captions = all_gather_texts(comm, captions_local);
-    const int own = static_cast<int>(bytes_local.size());
-    const std::vector<int> counts = all_gather(comm, std::span<const int>(&own, 1));
-    std::vector<int> begins(counts.size(), 0);
-    for (std::size_t r = 1; r < counts.size(); ++r) begins[r] = begins[r - 1] + counts[r - 1];
-    std::vector<std::uint8_t> bytes(comm.is_root() ? static_cast<std::size_t>(begins.back() + counts.back())
-                                                   : 0);
-    MPI_Gatherv(bytes_local.data(), own, MPI_UINT8_T, bytes.data(), counts.data(), begins.data(), MPI_UINT8_T,
-                0, comm.raw());
-    if (!comm.is_root()) return {};
+};
 
-    const int first = *std::min_element(numbers.begin(), numbers.end());
-    std::vector<SheetTile> tiles(numbers.size());
-    auto next = bytes.begin();
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        SheetTile& tile = tiles[at(numbers[k] - first)];
-        tile = {Image(size, size, picture_background), captions[k]};
-        std::copy_n(next, tile.picture.bytes.size(), tile.picture.bytes.begin());
-        next += static_cast<std::ptrdiff_t>(tile.picture.bytes.size());
+/// Pictures of one page on the root, in the order of the shapes; elsewhere empty.
+std::vector<SheetTile> gathered_tiles(const Comm& comm, const std::vector<NumberedTile>& local, int size) {
+    std::vector<NumberedTile> all = gather_records(comm, local);
+    std::sort(all.begin(), all.end(),
+              [](const NumberedTile& a, const NumberedTile& b) { return a.number < b.number; });
+    std::vector<SheetTile> tiles;
+    for (NumberedTile& tile : all) {
+        tiles.push_back({Image(size, size, picture_background), std::move(tile.caption)});
+        tiles.back().picture.bytes = std::move(tile.pixels);
     }
     return tiles;
 }
@@ -90,18 +83,17 @@ std::vector<SheetTile> gathered_tiles(const Comm& comm, const std::vector<int>& 
 /// Shapes begin..end-1, drawn where they are, on the root.
 std::vector<SheetTile> drawn_page(const Comm& comm, const SheetRequest& request,
                                   const std::vector<DrawnShape>& shapes_local, int begin, int end, int size) {
-    std::vector<int> numbers;
-    std::vector<SheetTile> tiles;
+    std::vector<NumberedTile> tiles;
     agree(comm, [&] {
         PictureOptions options;
         options.size = size;
         for (const DrawnShape& shape : shapes_local) {
             if (shape.number < begin || shape.number >= end) continue;
-            numbers.push_back(shape.number);
-            tiles.push_back({shape_picture(shape.picture, request.view, options), shape.caption});
+            Image picture = shape_picture(shape.picture, request.view, options);
+            tiles.push_back({shape.number, shape.caption, std::move(picture.bytes)});
         }
     });
-    return gathered_tiles(comm, numbers, tiles, size);
+    return gathered_tiles(comm, tiles, size);
 }
 
 std::string page_file(const std::string& kind, int page) {

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <tuple>
 
-#include "io/files/hdf5_file.hpp"
+#include "io/files/record_file.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
 #include "src/base/index.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* iterate_format = "coseg solver iterate";
-constexpr int iterate_version = 3;
+constexpr int iterate_version = 4;
 
 std::string iterate_name(int generation, BlockRange columns) {
     char text[80];
@@ -79,70 +79,19 @@ bool is_complete(const std::vector<IterateFile>& files, std::int64_t size) {
 }
 
 void write_iterate(const std::string& path, const SolveIterate& iterate, int features) {
-    // One name for each field: a new one does not compile until it has been thought of here.
-    const auto& [columns, offsets, rows, weights, prices, spectral, inner_gap, lower_bound, iterations,
-                 passes, proximal, history, finished, objective, residual, reason] = iterate;
-    const auto& [step, recent, count, inner_iterations] = spectral;
-    const auto& [next, reach, largest_reach, sufficient_gap] = proximal;
     Hdf5Writer file(path, iterate_format, iterate_version);
-    file.attribute("source_fingerprint", source_fingerprint());
+    file.attribute("source_fingerprint", source_fingerprint(KeptPiece::solutions));
     file.attribute("features", std::int64_t{features});
-    file.summary("solver, " + std::string(finished ? "end" : "iterate") + ", columns " +
-                 std::to_string(columns.begin) + " to " + std::to_string(columns.end) + ", " +
-                 std::to_string(rows.size()) + " pairs");
-    file.write("columns", std::vector<std::int64_t>{columns.begin, columns.end});
-    file.write("offsets", offsets);
-    file.write("rows", rows);
-    file.write("weights", weights, {rows.size(), static_cast<std::uint64_t>(features)});
-    file.write("prices", prices);
-    file.write("recent", std::vector<double>(recent.begin(), recent.end()));
-    file.write("numbers", std::vector<double>{step, inner_gap, lower_bound, objective, residual, reach,
-                                              largest_reach, sufficient_gap});
-    file.write("counts", std::vector<std::int64_t>{count, inner_iterations, iterations, passes,
-                                                   finished ? 1 : 0, reason, next});
-    std::vector<std::int64_t> steps;
-    std::vector<double> bounds;
-    for (const auto& [pass, so_far, reached, bound, gap, pairs] : history) {
-        steps.insert(steps.end(), {pass, so_far, pairs});
-        bounds.insert(bounds.end(), {reached, bound, gap});
-    }
-    file.write("history/counts", steps, {history.size(), 3});
-    file.write("history/numbers", bounds, {history.size(), 3});
+    file.summary("solver, " + std::string(iterate.finished ? "end" : "iterate") + ", columns " +
+                 std::to_string(iterate.columns.begin) + " to " + std::to_string(iterate.columns.end) + ", " +
+                 std::to_string(iterate.rows.size()) + " pairs");
+    write_record(file, "", iterate);
     file.commit();
 }
 
 SolveIterate read_iterate(const std::string& path) {
-    const Hdf5Reader file(path, iterate_format, iterate_version);
-    const auto columns = file.read<std::int64_t>("columns");
-    const auto numbers = file.read<double>("numbers");
-    const auto counts = file.read<std::int64_t>("counts");
-    const auto recent = file.read<double>("recent");
     SolveIterate iterate;
-    iterate.columns = {columns.at(0), columns.at(1)};
-    iterate.offsets = file.read<std::int64_t>("offsets");
-    iterate.rows = file.read<std::int32_t>("rows");
-    iterate.weights = file.read<double>("weights");
-    iterate.prices = file.read<double>("prices");
-    iterate.spectral.step = numbers.at(0);
-    std::copy_n(recent.begin(), std::min(recent.size(), iterate.spectral.recent.size()),
-                iterate.spectral.recent.begin());
-    iterate.spectral.count = counts.at(0);
-    iterate.spectral.iterations = static_cast<int>(counts.at(1));
-    iterate.inner_gap = numbers.at(1);
-    iterate.lower_bound = numbers.at(2);
-    iterate.iterations = static_cast<int>(counts.at(2));
-    iterate.passes = static_cast<int>(counts.at(3));
-    iterate.finished = counts.at(4) != 0;
-    iterate.objective = numbers.at(3);
-    iterate.residual = numbers.at(4);
-    iterate.reason = static_cast<int>(counts.at(5));
-    iterate.proximal = {static_cast<int>(counts.at(6)), numbers.at(5), numbers.at(6), numbers.at(7)};
-    const auto steps = file.read<std::int64_t>("history/counts");
-    const auto bounds = file.read<double>("history/numbers");
-    for (std::size_t k = 0; k + 2 < steps.size(); k += 3) {
-        iterate.history.push_back({static_cast<int>(steps[k]), static_cast<int>(steps[k + 1]), bounds.at(k),
-                                   bounds.at(k + 1), bounds.at(k + 2), steps[k + 2]});
-    }
+    read_record(Hdf5Reader(path, iterate_format, iterate_version), "", iterate);
     return iterate;
 }
 

@@ -1,41 +1,45 @@
 #include "mpi_drivers/optimise/solution_output.hpp"
 
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "io/data_files/feature_file.hpp"
+#include "io/reports/record_json.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
 
-std::vector<ReportPass> report_passes(const SolveHistory& history) {
-    std::vector<ReportPass> passes;
-    for (const HistoryRow& row : history) {
-        passes.push_back(
-            {row.pass, row.iterations, row.objective, row.lower_bound, row.relative_gap, row.working_pairs});
+namespace {
+
+/// What a solve prints of itself.
+struct Certificate {
+    std::int64_t allowed_pairs = 0;
+    std::int64_t n = 0;
+    int h = 0;
+    double lambda = 0.0;
+    double alpha = 0.0;
+    double beta = 0.0;
+    SolveSummary solution;
+    static constexpr auto fields() {
+        return std::tuple(field("allowed_pairs", &Certificate::allowed_pairs), field("n", &Certificate::n),
+                          field("h", &Certificate::h), field("lambda", &Certificate::lambda),
+                          field("alpha", &Certificate::alpha), field("beta", &Certificate::beta),
+                          inlined(&Certificate::solution));
     }
-    return passes;
-}
+};
+
+}  // namespace
 
 std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result) {
-    const auto history = nlohmann::ordered_json::parse(history_json(report_passes(result.history)));
-    const nlohmann::ordered_json json = {{"objective", result.objective},
-                                         {"lower_bound", result.lower_bound},
-                                         {"relative_gap", result.relative_gap},
-                                         {"iterations", result.iterations},
-                                         {"nonzero_groups", result.nonzero_groups},
-                                         {"reason", to_string(result.reason)},
-                                         {"objective_at_zero", result.objective_at_zero},
-                                         {"kkt_residual", result.kkt_residual},
-                                         {"working_pairs", result.working_pairs},
-                                         {"passes", result.passes},
-                                         {"allowed_pairs", allowed_pair_count(problem)},
-                                         {"n", problem.size()},
-                                         {"h", problem.feature_count()},
-                                         {"lambda", problem.lambda},
-                                         {"alpha", problem.alpha},
-                                         {"beta", problem.beta},
-                                         {"history", history}};
-    return json.dump();
+    JsonTree tree;
+    set_json(tree.root(), Certificate{.allowed_pairs = allowed_pair_count(problem),
+                                      .n = problem.size(),
+                                      .h = problem.feature_count(),
+                                      .lambda = problem.lambda,
+                                      .alpha = problem.alpha,
+                                      .beta = problem.beta,
+                                      .solution = result});
+    return tree.line();
 }
 
 void write_coefficients(const Comm& comm, const SolveResult& result, const std::string& path) {

@@ -5,14 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "io/reports/report.hpp"
 #include "solvers/variants/subspace_solver.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
-
-/// The solver's history as reports have it.
-std::vector<ReportPass> report_passes(const SolveHistory& history);
 
 /// Objective, bounds, gap, counts, reason and the problem's sizes and penalties: the text of a JSON object.
 std::string certificate_json(const SubspaceProblem& problem, const SolveResult& result);

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <span>
 
-#include "io/files/hdf5_file.hpp"
+#include "io/files/record_file.hpp"
+#include "io/files/record_hash.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -15,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* tiles_format = "coseg solver tiles";
-constexpr int tiles_version = 2;
+constexpr int tiles_version = 3;
 constexpr std::chrono::seconds look_interval{1};
 
 std::string tiles_name(std::int64_t begin, std::int64_t end) {
@@ -33,17 +35,6 @@ std::optional<BlockRange> columns_of(const std::string& name) {
     return BlockRange{begin, end};
 }
 
-template <class T>
-void append(std::vector<T>& all, const std::vector<T>& part) {
-    all.insert(all.end(), part.begin(), part.end());
-}
-
-/// The part [from, from + count) of all.
-template <class T>
-std::vector<T> part_of(const std::vector<T>& all, std::int64_t from, std::int64_t count) {
-    return {all.begin() + from, all.begin() + from + count};
-}
-
 }  // namespace
 
 ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& options) {
@@ -51,14 +42,14 @@ ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& opti
     const auto& [features, alpha, beta, lambda, scope, mesh_of, allowed_meshes] = problem;
     const auto& [gap, max_iterations, max_seconds, solver, progress, checkpoint] = options;
     ContentHasher hasher;
-    hasher.add(source_fingerprint());
+    hasher.add(source_fingerprint(KeptPiece::solutions));
     hasher.add(std::int64_t{tiles_version});
     for (const double number : {alpha, beta, lambda, gap}) hasher.add(number);
     hasher.add(max_iterations);
     hasher.add(solver);
     hasher.add(static_cast<int>(scope));
-    hasher.add(std::span<const int>(mesh_of));
-    for (const std::vector<int>& allowed : allowed_meshes) hasher.add(std::span<const int>(allowed));
+    add_value(hasher, mesh_of);
+    add_value(hasher, allowed_meshes);
     for (const Eigen::Index begin : features.offsets()) hasher.add(std::int64_t{begin});
     hasher.add(std::span<const double>(features.data(),
                                        static_cast<std::size_t>(features.dimension() * features.columns())));
@@ -69,104 +60,19 @@ ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& opti
 }
 
 void write_tiles(const std::string& path, const std::vector<SolvedTile>& tiles, int features) {
-    SolvedTile all;
-    std::vector<std::int64_t> begins, ends, pairs, working;
-    std::vector<std::int32_t> iterations, passes;
-    std::vector<double> residuals;
-    std::vector<std::int8_t> limited;
-    std::vector<std::int64_t> round_counts, round_steps;
-    std::vector<double> round_numbers;
-    for (const SolvedTile& tile : tiles) {
-        begins.push_back(tile.begin);
-        ends.push_back(tile.end);
-        pairs.push_back(tile.offsets.back());
-        working.push_back(tile.working_pairs);
-        iterations.push_back(tile.iterations);
-        passes.push_back(tile.passes);
-        residuals.push_back(tile.residual);
-        limited.push_back(tile.limited ? 1 : 0);
-        round_counts.push_back(static_cast<std::int64_t>(tile.rounds.size()));
-        for (const auto& [reached, bound, so_far, round_pairs] : tile.rounds) {
-            round_numbers.insert(round_numbers.end(), {reached, bound});
-            round_steps.insert(round_steps.end(), {so_far, round_pairs});
-        }
-        append(all.offsets, tile.offsets);
-        append(all.rows, tile.rows);
-        append(all.values, tile.values);
-        append(all.decrease, tile.decrease);
-        append(all.largest_decrease, tile.largest_decrease);
-    }
+    std::size_t pairs = 0;
+    for (const SolvedTile& tile : tiles) pairs += tile.rows.size();
     Hdf5Writer file(path, tiles_format, tiles_version);
     file.attribute("features", std::int64_t{features});
-    file.attribute("source_fingerprint", source_fingerprint());
-    file.summary("solver, columns " + std::to_string(begins.front()) + " to " + std::to_string(ends.back()) +
-                 ", " + std::to_string(all.rows.size()) + " pairs");
-    file.write("tile/begin", begins);
-    file.write("tile/end", ends);
-    file.write("tile/pairs", pairs);
-    file.write("tile/working_pairs", working);
-    file.write("tile/iterations", iterations);
-    file.write("tile/passes", passes);
-    file.write("tile/residual", residuals);
-    file.write("tile/limited", limited);
-    file.write("tile/rounds", round_counts);
-    file.write("round/numbers", round_numbers, {round_numbers.size() / 2, 2});
-    file.write("round/counts", round_steps, {round_steps.size() / 2, 2});
-    file.write("offsets", all.offsets);
-    file.write("rows", all.rows);
-    file.write("values", all.values, {all.rows.size(), static_cast<std::uint64_t>(features)});
-    file.write("decrease", all.decrease);
-    file.write("largest_decrease", all.largest_decrease);
+    file.attribute("source_fingerprint", source_fingerprint(KeptPiece::solutions));
+    file.summary("solver, columns " + std::to_string(tiles.front().begin) + " to " +
+                 std::to_string(tiles.back().end) + ", " + std::to_string(pairs) + " pairs");
+    write_column(file, "tiles", tiles);
     file.commit();
 }
 
 std::vector<SolvedTile> read_tiles(const std::string& path) {
-    const Hdf5Reader file(path, tiles_format, tiles_version);
-    const auto begins = file.read<std::int64_t>("tile/begin");
-    const auto ends = file.read<std::int64_t>("tile/end");
-    const auto pairs = file.read<std::int64_t>("tile/pairs");
-    const auto working = file.read<std::int64_t>("tile/working_pairs");
-    const auto iterations = file.read<std::int32_t>("tile/iterations");
-    const auto passes = file.read<std::int32_t>("tile/passes");
-    const auto residuals = file.read<double>("tile/residual");
-    const auto limited = file.read<std::int8_t>("tile/limited");
-    const auto round_counts = file.read<std::int64_t>("tile/rounds");
-    const auto round_numbers = file.read<double>("round/numbers");
-    const auto round_steps = file.read<std::int64_t>("round/counts");
-    const auto offsets = file.read<std::int64_t>("offsets");
-    const auto rows = file.read<std::int32_t>("rows");
-    const auto values = file.read<double>("values");
-    const auto decrease = file.read<double>("decrease");
-    const auto largest_decrease = file.read<double>("largest_decrease");
-    const std::int64_t features = file.integer("features");
-    std::vector<SolvedTile> tiles;
-    std::int64_t column = 0;
-    std::int64_t pair = 0;
-    std::size_t round = 0;
-    for (std::size_t t = 0; t < begins.size(); ++t) {
-        const std::int64_t columns = ends[t] - begins[t];
-        tiles.push_back({.begin = begins[t],
-                         .end = ends[t],
-                         .offsets = part_of(offsets, column + static_cast<std::int64_t>(t), columns + 1),
-                         .rows = part_of(rows, pair, pairs[t]),
-                         .values = part_of(values, pair * features, pairs[t] * features),
-                         .decrease = part_of(decrease, column, columns),
-                         .largest_decrease = part_of(largest_decrease, column, columns),
-                         .residual = residuals[t],
-                         .iterations = iterations[t],
-                         .passes = passes[t],
-                         .working_pairs = working[t],
-                         .limited = limited[t] != 0,
-                         .rounds = {}});
-        for (std::int64_t k = 0; k < round_counts[t]; ++k, round += 2) {
-            tiles.back().rounds.push_back({round_numbers.at(round), round_numbers.at(round + 1),
-                                           static_cast<int>(round_steps.at(round)),
-                                           round_steps.at(round + 1)});
-        }
-        column += columns;
-        pair += pairs[t];
-    }
-    return tiles;
+    return read_column<SolvedTile>(Hdf5Reader(path, tiles_format, tiles_version), "tiles");
 }
 
 void SolverCheckpointFiles::open(const SubspaceProblem& problem, const SolveOptions& options,
@@ -277,7 +183,7 @@ std::optional<SolveIterate> SolverCheckpointFiles::find_iterate() {
     if (comm_.is_root()) {
         for (const IterateFile& file : iterate_files(folder_)) paths.push_back(file.path);
     }
-    broadcast_texts(comm_, paths);
+    broadcast(comm_, paths);
     const std::vector<IterateFile> all = iterate_files_of(paths);
     if (!all.empty())
         generation_ = all.front().generation;  // also an incomplete one: the next has another name

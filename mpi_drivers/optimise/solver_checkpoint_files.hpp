@@ -13,6 +13,7 @@
 #include "mpi_drivers/process/run_state.hpp"
 #include "solvers/variants/subspace_solver.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/parallel/record_exchange.hpp"
 #include "src/parallel/shared_counter.hpp"
 
 namespace coseg {
@@ -37,7 +38,7 @@ class SolverCheckpointFiles : public SolverCheckpoint {
     void close(bool stopped) override;
 
     /// Collective: what went wrong with files, a sentence each, on all ranks.
-    [[nodiscard]] std::vector<std::string> warnings() const { return all_gather_texts(comm_, warnings_); }
+    [[nodiscard]] std::vector<std::string> warnings() const { return all_gather_records(comm_, warnings_); }
     /// Tiles of this rank that need not be solved again, and those that were solved; an iterate counts one on rank 0.
     [[nodiscard]] int found_count() const noexcept { return found_; }
     [[nodiscard]] int kept_count() const noexcept { return kept_; }

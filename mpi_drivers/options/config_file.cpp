@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "src/base/error.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -84,7 +85,7 @@ std::vector<std::string> with_config_file(const Comm& comm, const std::vector<st
     agree(comm, [&] {
         if (comm.is_root()) from_file = words_of(parsed(path), path, words);
     });
-    broadcast_texts(comm, from_file);
+    broadcast(comm, from_file);
     std::vector<std::string> all = {words.front()};  // the subcommand stands first
     all.insert(all.end(), from_file.begin(), from_file.end());
     all.insert(all.end(), words.begin() + 1, words.end());

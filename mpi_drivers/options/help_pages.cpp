@@ -84,7 +84,7 @@ std::string man_options(const CLI::App& command) {
     return text;
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string spaced(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
     return text;
@@ -130,18 +130,18 @@ std::string bash_completion(const CLI::App& program, const std::vector<std::stri
     std::string cases;
     for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
         names.push_back(command->get_name());
-        cases += "        " + command->get_name() + ") options=\"" + joined(long_names(*command)) + "\" ;;\n";
+        cases += "        " + command->get_name() + ") options=\"" + spaced(long_names(*command)) + "\" ;;\n";
     }
     return "# bash completion for coseg\n_coseg() {\n"
            "    local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} options=\"\"\n"
            "    if ((COMP_CWORD == 1)); then\n        mapfile -t COMPREPLY < <(compgen -W \"" +
-           joined(names) +
+           spaced(names) +
            " --help --version\" -- \"$word\")\n        return\n    fi\n    case $command in\n" + cases +
            "    esac\n    if [[ $word == -* ]]; then\n"
            "        mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
            "    elif [[ $command == generate && $COMP_CWORD -eq 2 ]]; then\n        mapfile -t COMPREPLY < "
            "<(compgen -W \"" +
-           joined(families) +
+           spaced(families) +
            " list\" -- \"$word\")\n    else\n        mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n    "
            "fi\n}\n"
            "complete -o filenames -F _coseg coseg\n";

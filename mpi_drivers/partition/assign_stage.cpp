@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "mpi_drivers/describe/patch_gather.hpp"
 #include "solvers/partition/label_propagation.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -76,26 +78,35 @@ PropagationInput propagation_input(const MeshDescription& mesh, const PatchNumbe
 }
 
 /// What a mesh adds to the report, gathered in the order of meshes so that sums do not depend on the ranks.
-enum Figure { at_zero, objective, bound, residual, iterations, passes, pairs, reason, allowed, figure_count };
+struct AssignedMesh {
+    int mesh = 0;
+    SolveSummary solution;
+    std::int64_t allowed_pairs = 0;
+    static constexpr auto fields() {
+        return std::tuple(field("mesh", &AssignedMesh::mesh), field("solution", &AssignedMesh::solution),
+                          field("allowed_pairs", &AssignedMesh::allowed_pairs));
+    }
+};
 
-Eigen::VectorXd figures_of(const SolveResult& result, const PatchFeatures& features,
-                           const SubspaceProblem& problem, int first, int count) {
+/// The solve without the run's columns, which have no rows here, and without its history.
+SolveSummary own_share(const SolveResult& result, const PatchFeatures& features, int first, int count) {
     double zero = 0.0;
     for (std::size_t h = 0; h < features.histograms.size(); ++h) {
         const Eigen::MatrixXd own = features.histograms[h].middleCols(first, count);
         zero += own.squaredNorm();
     }
-    const double others = result.objective_at_zero - zero;  // of the run's columns, which have no rows here
-    Eigen::VectorXd figures(static_cast<Eigen::Index>(figure_count));
-    figures << zero, result.objective - others, std::max(result.lower_bound - others, 0.0),
-        result.kkt_residual, result.iterations, result.passes, static_cast<double>(result.nonzero_groups),
-        static_cast<double>(result.reason), static_cast<double>(allowed_pair_count(problem));
-    return figures;
+    const double others = result.objective_at_zero - zero;
+    SolveSummary share = result;
+    share.objective_at_zero = zero;
+    share.objective -= others;
+    share.lower_bound = std::max(result.lower_bound - others, 0.0);
+    share.history.clear();
+    return share;
 }
 
 struct MeshOutcome {
     std::vector<int> parts;
-    Eigen::VectorXd figures;
+    AssignedMesh figures;
 };
 
 MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Collection& collection,
@@ -107,7 +118,7 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Col
         .gap = options.gap, .max_iterations = options.max_iterations, .max_seconds = options.max_seconds};
     const SolveResult result = solve_subspace(self, problem, solve);
     MeshOutcome outcome;
-    outcome.figures = figures_of(result, features, problem, first, count);
+    outcome.figures = {mesh.mesh, own_share(result, features, first, count), allowed_pair_count(problem)};
     outcome.parts = propagate_labels(
         propagation_input(mesh, collection.numbering, evidence_of(result.coefficients, model, count)),
         assign_bonds);
@@ -119,42 +130,32 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Col
     return outcome;
 }
 
-SolveResult summed(const Eigen::MatrixXd& figures) {
-    SolveResult sum;
-    StopReason worst = StopReason::gap_reached;
-    for (Eigen::Index m = 0; m < figures.cols(); ++m) {
-        sum.objective_at_zero += figures(at_zero, m);
-        sum.objective += figures(objective, m);
-        sum.lower_bound += figures(bound, m);
-        sum.kkt_residual = std::max(sum.kkt_residual, figures(residual, m));
-        sum.iterations = std::max(sum.iterations, static_cast<int>(figures(iterations, m)));
-        sum.passes = std::max(sum.passes, static_cast<int>(figures(passes, m)));
-        sum.nonzero_groups += std::llround(figures(pairs, m));
-        worst = std::max(worst, static_cast<StopReason>(static_cast<int>(figures(reason, m))));
+SolveSummary summed(const std::vector<AssignedMesh>& meshes) {
+    SolveSummary sum;
+    for (const AssignedMesh& mesh : meshes) {
+        const SolveSummary& own = mesh.solution;
+        sum.objective_at_zero += own.objective_at_zero;
+        sum.objective += own.objective;
+        sum.lower_bound += own.lower_bound;
+        sum.kkt_residual = std::max(sum.kkt_residual, own.kkt_residual);
+        sum.iterations = std::max(sum.iterations, own.iterations);
+        sum.passes = std::max(sum.passes, own.passes);
+        sum.nonzero_groups += own.nonzero_groups;
+        sum.reason = std::max(sum.reason, own.reason);
     }
-    sum.reason = worst;
     const double decrease = sum.objective_at_zero - sum.objective;
     sum.relative_gap = decrease > 0.0 ? std::max(sum.objective - sum.lower_bound, 0.0) / decrease : 0.0;
     return sum;
 }
 
-Eigen::MatrixXd gather_figures(const Comm& comm, const Collection& collection,
-                               const std::vector<MeshOutcome>& outcomes) {
-    std::vector<int> meshes;
-    std::vector<double> values;
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
-        meshes.push_back(collection.local[k].mesh);
-        values.insert(values.end(), outcomes[k].figures.begin(), outcomes[k].figures.end());
-    }
-    meshes = all_gather(comm, std::span<const int>(meshes));
-    values = all_gather(comm, std::span<const double>(values));
-    Eigen::MatrixXd figures(static_cast<Eigen::Index>(figure_count),
-                            static_cast<Eigen::Index>(meshes.size()));
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        figures.col(meshes[k]) = Eigen::Map<const Eigen::VectorXd>(
-            values.data() + k * static_cast<std::size_t>(figure_count), figures.rows());
-    }
-    return figures;
+/// Of all ranks, in the order of meshes.
+std::vector<AssignedMesh> gather_figures(const Comm& comm, const std::vector<MeshOutcome>& outcomes) {
+    std::vector<AssignedMesh> local;
+    for (const MeshOutcome& outcome : outcomes) local.push_back(outcome.figures);
+    std::vector<AssignedMesh> meshes = all_gather_records(comm, local);
+    std::sort(meshes.begin(), meshes.end(),
+              [](const AssignedMesh& a, const AssignedMesh& b) { return a.mesh < b.mesh; });
+    return meshes;
 }
 
 }  // namespace
@@ -174,15 +175,15 @@ Assigned assign_parts(const Comm& comm, const Collection& collection, const Patc
         }
     });
     const Eigen::MatrixXd all = gather_patch_columns(comm, collection, parts_local, 1);
-    const Eigen::MatrixXd figures = gather_figures(comm, collection, outcomes);
+    const std::vector<AssignedMesh> figures = gather_figures(comm, outcomes);
     Assigned assigned;
     for (const double part : all.reshaped()) assigned.cut.part_of_patch.push_back(static_cast<int>(part));
     Optimisation& optimisation = assigned.optimisation;
-    optimisation.result = summed(figures);
+    static_cast<SolveSummary&>(optimisation.result) = summed(figures);
     optimisation.variant = "multi-feature";
     optimisation.scope = "mesh";
     optimisation.links = static_cast<int>(model.mesh_names.size());
-    optimisation.allowed_pairs = std::llround(figures.row(allowed).sum());
+    for (const AssignedMesh& mesh : figures) optimisation.allowed_pairs += mesh.allowed_pairs;
     for (const Descriptor& descriptor : features.descriptors)
         optimisation.features.push_back(descriptor.name);
     SparseCoefficients& none = optimisation.result.coefficients;

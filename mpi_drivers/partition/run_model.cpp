@@ -30,7 +30,7 @@ std::vector<int> kept_meshes(const std::vector<MeshFacts>& meshes, std::uint64_t
 }
 
 void write_options(Hdf5Writer& file, const RunOptions& options) {
-    file.attribute("source_fingerprint", source_fingerprint());
+    file.attribute("source_fingerprint", source_fingerprint(KeptPiece::features));
     file.attribute("parts", std::int64_t{options.parts});
     file.attribute("seed", static_cast<std::int64_t>(options.seed));
     file.attribute("remesh", options.remesh);
@@ -209,7 +209,7 @@ RunModel read_run_model(const std::string& folder) {
     const Hdf5Reader file(path, model_format, model_version);
     RunModel model;
     model.options = read_options(file);
-    model.same_build = file.text("source_fingerprint") == source_fingerprint();
+    model.same_build = file.text("source_fingerprint") == source_fingerprint(KeptPiece::features);
     read_features(file, model);
     model.mesh_of = file.read<std::int32_t>("mesh_of");
     model.part_of_patch = file.read<std::int32_t>("part_of_patch");

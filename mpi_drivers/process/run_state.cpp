@@ -1,20 +1,20 @@
 #include "mpi_drivers/process/run_state.hpp"
 
-#include <vector>
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
 RunState::RunState(const Comm& comm, const std::string& directory, LockMode mode, double checkpoint_seconds)
     : checkpoint_seconds_(checkpoint_seconds) {
-    std::vector<std::string> path;
+    std::string path;
     agree(comm, [&] {
         if (!comm.is_root()) return;
         folder_ = StateFolder::make(directory);
         lock_.emplace(folder_->lock_file(), mode);
-        path = {folder_->path()};
+        path = folder_->path();
     });
-    broadcast_texts(comm, path);
-    folder_ = StateFolder::at(path.front());
+    broadcast(comm, path);
+    folder_ = StateFolder::at(path);
 }
 
 void RunState::end_if_asked(const Comm& comm, const std::string& done) const {

@@ -1,12 +1,22 @@
 #pragma once
-// What tells one build's results from another's.
+// What tells the results of one build from those of another.
 
 #include <string>
 
 namespace coseg {
 
-/// A hash of the sources and settings that results depend on, made when the program is built. State of
-/// another build is not used: a change of a descriptor must not meet results of the old one.
-std::string source_fingerprint();
+/// What is kept from one run to the next.
+enum class KeptPiece {
+    descriptions,  ///< of meshes
+    solutions,     ///< tiles and iterates of the optimiser
+    cuts,
+    features,  ///< of the patches of a model
+};
+
+/// A hash of the settings of the build and of the sources that a piece depends on (fingerprint.cmake), made
+/// when the program is built. A piece with another one is not used: what a changed descriptor would give must
+/// not meet results of the old one. Comments, white space and files that cannot change the piece have no part
+/// in it.
+std::string source_fingerprint(KeptPiece piece);
 
 }  // namespace coseg

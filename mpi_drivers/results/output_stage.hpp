@@ -50,7 +50,7 @@ struct RunOutcome {
     const std::vector<MeshLabels>& labels;
     const RunOptions& options;
     const std::vector<std::pair<std::string, std::string>>& resolved;
-    ReportState state;
+    std::optional<ReportState> state;
 };
 
 /// Collective: report.json, by rank 0.

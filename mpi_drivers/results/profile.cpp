@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <span>
 #include <vector>
 
 #include "io/files/atomic_file.hpp"
 #include "io/reports/trace_file.hpp"
 #include "solvers/petsc/petsc_log.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -44,29 +44,11 @@ std::string stage_table(const Comm& comm, const StageLog& log) {
     return table;
 }
 
-/// On every rank the spans of all.
-std::vector<RankTrace> gathered_traces(const Comm& comm, const RankTrace& local) {
-    std::vector<std::string> texts;
-    std::vector<double> numbers;  // rank, start, seconds
-    for (const TraceEvent& event : local) {
-        texts.insert(texts.end(), {event.name, event.category});
-        numbers.insert(numbers.end(), {static_cast<double>(comm.rank()), event.start, event.seconds});
-    }
-    texts = all_gather_texts(comm, texts);
-    numbers = all_gather(comm, std::span<const double>(numbers));
-    std::vector<RankTrace> traces(static_cast<std::size_t>(comm.size()));
-    for (std::size_t k = 0; 2 * k < texts.size(); ++k) {
-        traces[static_cast<std::size_t>(numbers[3 * k])].push_back(
-            {texts[2 * k], texts[2 * k + 1], numbers[3 * k + 1], numbers[3 * k + 2]});
-    }
-    return traces;
-}
-
 }  // namespace
 
 void write_profile(const Comm& comm, const std::string& folder, const RunOptions& options,
                    const StageLog& log) {
-    const std::vector<RankTrace> traces = gathered_traces(comm, log.trace());
+    const std::vector<RankTrace> traces = gather_records(comm, std::vector<RankTrace>{log.trace()});
     const std::string text = stage_table(comm, log) + "\n" + petsc_log_text(comm);
     agree(comm, [&] {
         if (!comm.is_root()) return;

@@ -9,6 +9,7 @@
 #include "src/base/index.hpp"
 #include "src/mesh/polygon_area.hpp"
 #include "src/mesh/vertex_clustering.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -43,23 +44,11 @@ std::string packed_shape(const LabelledMesh& shape, const std::vector<bool>& is_
     return packed_mesh(coarse.mesh, labels, wrong);
 }
 
-struct PackedShapes {
-    std::vector<int> numbers;
-    std::vector<double> accuracies;  ///< -1 without truth
-    std::vector<std::string> packed;
-};
-
-/// All ranks' shapes on every rank, in the order of the run.
-std::vector<PageShape> gathered(const Comm& comm, const PackedShapes& local) {
-    const std::vector<int> numbers = all_gather(comm, std::span<const int>(local.numbers));
-    const std::vector<double> accuracies = all_gather(comm, std::span<const double>(local.accuracies));
-    std::vector<std::string> packed = all_gather_texts(comm, local.packed);
-    std::vector<PageShape> shapes(numbers.size());
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        PageShape& shape = shapes[at(numbers[k])];
-        shape.packed = std::move(packed[k]);
-        if (accuracies[k] >= 0.0) shape.accuracy = accuracies[k];
-    }
+/// All ranks' shapes on the root, in the order of the run; elsewhere empty.
+std::vector<PageShape> gathered(const Comm& comm, const std::vector<PageShape>& local) {
+    std::vector<PageShape> shapes = gather_records(comm, local);
+    std::sort(shapes.begin(), shapes.end(),
+              [](const PageShape& a, const PageShape& b) { return a.number < b.number; });
     return shapes;
 }
 
@@ -92,14 +81,15 @@ void write_html_report(const Comm& comm, const FinishedInput& input, const std::
     const int count = static_cast<int>(run.shapes.size());
     const int step = (count + report_most_shapes - 1) / report_most_shapes;
     const int most_faces = std::max(report_least_faces, report_face_budget / count);
-    PackedShapes local;
+    std::vector<PageShape> local;
     std::vector<DrawnShape> drawn;
     agree(comm, [&] {
         for (const LabelledMesh& shape : shapes) {
             const std::vector<bool> is_wrong = wrong_faces(shape, label_of_part);
-            local.numbers.push_back(shape.number);
-            local.accuracies.push_back(shape.truth.empty() ? -1.0 : accuracy_of(shape, is_wrong));
-            local.packed.push_back(shape.number % step == 0 ? packed_shape(shape, is_wrong, most_faces) : "");
+            PageShape page{.number = shape.number, .packed = "", .accuracy = {}};
+            if (shape.number % step == 0) page.packed = packed_shape(shape, is_wrong, most_faces);
+            if (!shape.truth.empty()) page.accuracy = accuracy_of(shape, is_wrong);
+            local.push_back(std::move(page));
         }
         drawn = undrawn(shapes);
     });

@@ -6,16 +6,9 @@
 
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/records/affinity_picture.hpp"
 
 namespace coseg {
-
-struct AffinityPicture {
-    /// B rows of B digits 0..9a..z: the mean link ||w_ij|| + ||w_ji|| between the patches of two bins, by its
-    /// square root; 0 is none, z the largest. Patches are sorted by part, then as they are numbered, and
-    /// divided into B even bins.
-    std::vector<std::string> rows;
-    std::vector<int> part_ends;  ///< per part the number of bins before its end
-};
 
 /// B is most_bins, or N if there are fewer patches. Collective; the result is the same on any number of
 /// ranks.

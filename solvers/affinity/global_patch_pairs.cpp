@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -38,10 +39,11 @@ void refuse_bad_pairs(const std::vector<Relation>& sorted, int patches) {
 }
 
 template <class Relation>
-std::vector<int> pair_numbers(const std::vector<Relation>& relations) {
-    std::vector<int> numbers;
-    for (const Relation& r : relations) numbers.insert(numbers.end(), {r.patch_a, r.patch_b});
-    return numbers;
+std::vector<Relation> gathered(const Comm& comm, const std::vector<Relation>& local, int patches) {
+    std::vector<Relation> all = all_gather_records(comm, local);
+    sort_pairs(all);
+    refuse_bad_pairs(all, patches);
+    return all;
 }
 
 }  // namespace
@@ -49,32 +51,13 @@ std::vector<int> pair_numbers(const std::vector<Relation>& relations) {
 std::vector<GlobalPatchNeighbors> gather_patch_pairs(const Comm& comm,
                                                      const std::vector<GlobalPatchNeighbors>& local,
                                                      int patches) {
-    std::vector<double> weights;
-    for (const GlobalPatchNeighbors& r : local)
-        weights.insert(weights.end(), {r.boundary_length, r.concavity});
-    const std::vector<int> pairs = all_gather(comm, std::span<const int>(pair_numbers(local)));
-    const std::vector<double> all_weights = all_gather(comm, std::span<const double>(weights));
-    std::vector<GlobalPatchNeighbors> all(pairs.size() / 2);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        all[k] = {pairs[2 * k], pairs[2 * k + 1], all_weights[2 * k], all_weights[2 * k + 1]};
-    }
-    sort_pairs(all);
-    refuse_bad_pairs(all, patches);
-    return all;
+    return gathered(comm, local, patches);
 }
 
 std::vector<GlobalPatchOverlap> gather_patch_pairs(const Comm& comm,
                                                    const std::vector<GlobalPatchOverlap>& local,
                                                    int patches) {
-    std::vector<double> shares;
-    for (const GlobalPatchOverlap& r : local) shares.push_back(r.intersection_over_union);
-    const std::vector<int> pairs = all_gather(comm, std::span<const int>(pair_numbers(local)));
-    const std::vector<double> all_shares = all_gather(comm, std::span<const double>(shares));
-    std::vector<GlobalPatchOverlap> all(all_shares.size());
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = {pairs[2 * k], pairs[2 * k + 1], all_shares[k]};
-    sort_pairs(all);
-    refuse_bad_pairs(all, patches);
-    return all;
+    return gathered(comm, local, patches);
 }
 
 }  // namespace coseg

@@ -2,9 +2,11 @@
 // What ties patches of one mesh together, with global patch numbers: meshes in the collection's order, within
 // a mesh its over-segmentations, within one its patches.
 
+#include <tuple>
 #include <vector>
 
 #include "src/parallel/comm.hpp"
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -14,6 +16,12 @@ struct GlobalPatchNeighbors {
     int patch_b = 0;
     double boundary_length = 0.0;  ///< of a mesh of unit area
     double concavity = 0.0;        ///< mc in [0, 1]: mean normalised minimum curvature along the boundary
+    static constexpr auto fields() {
+        return std::tuple(field("patch_a", &GlobalPatchNeighbors::patch_a),
+                          field("patch_b", &GlobalPatchNeighbors::patch_b),
+                          field("boundary_length", &GlobalPatchNeighbors::boundary_length),
+                          field("concavity", &GlobalPatchNeighbors::concavity));
+    }
 };
 
 /// Two patches of one mesh in different over-segmentations that share faces.
@@ -21,6 +29,11 @@ struct GlobalPatchOverlap {
     int patch_a = 0;
     int patch_b = 0;
     double intersection_over_union = 0.0;  ///< of their areas, in (0, 1]
+    static constexpr auto fields() {
+        return std::tuple(field("patch_a", &GlobalPatchOverlap::patch_a),
+                          field("patch_b", &GlobalPatchOverlap::patch_b),
+                          field("intersection_over_union", &GlobalPatchOverlap::intersection_over_union));
+    }
 };
 
 /// All relations on all ranks, patch_a < patch_b, in ascending order whichever rank they came from.

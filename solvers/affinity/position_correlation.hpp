@@ -6,18 +6,9 @@
 
 #include "solvers/affinity/sparse_rows.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/records/position_frame.hpp"
 
 namespace coseg {
-
-/// Directions common to the meshes, and how well the positions of linked patches agree along each.
-struct PositionFrame {
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< of the positions, weighted by links
-    /// One a column: along it the positions have mean 0 and spread 1 over the links, and the three do not covary.
-    Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
-    /// Canonical correlations of the two ends of a link, ascending, in [0, 1). All near 0 where shapes are turned at random,
-    /// and along a direction to both sides of which shapes are alike.
-    Eigen::Vector3d correlation = Eigen::Vector3d::Zero();
-};
 
 /// `links`: this rank's rows of a symmetric affinity; those inside a mesh do not count. `positions`: 3 x N, column major, of all
 /// patches, each mesh centred and scaled alike; `mesh_of` per patch; both the same on all ranks. A common affine map of the

@@ -6,6 +6,7 @@
 
 #include "solvers/affinity/sparse_rows.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/records/start_outcome.hpp"
 
 namespace coseg {
 
@@ -24,13 +25,6 @@ ClusterLinks cluster_links(const Comm& comm, const SparseRows& affinity, const s
 /// `mesh_of` per patch, meshes 0 .. M-1.
 Eigen::MatrixXd area_shares(const std::vector<int>& labels, int clusters,
                             const std::vector<double>& patch_area, const std::vector<int>& mesh_of);
-
-/// Which two clusters become one.
-enum class MergeRule {
-    normalized_cut,  ///< those whose union increases the normalised cut (Shi and Malik 2000) the least
-    linkage,  ///< those with the largest links / sqrt(volume * volume): it spares a small cluster that hangs
-              ///< together less well than the large ones, which the normalised cut gives up first
-};
 
 /// Merges two clusters after the other by the rule (ties: lowest numbers) until `parts` are left. Clusters without a
 /// patch do not count. Returns the part of each cluster, 0 .. parts - 1 in the order of their lowest clusters; -1 for an

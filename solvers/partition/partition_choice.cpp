@@ -228,6 +228,21 @@ BetweenPartVariance between_part_variance(const Eigen::MatrixXf& histograms, con
             .per_mesh = std::clamp(per_mesh / spread, 0.0, 1.0)};
 }
 
+PartitionTerms partition_terms(const Comm& comm, const PartitionEvidence& evidence,
+                               const std::vector<int>& labels, int parts) {
+    const Eigen::MatrixXd shares = area_shares(labels, parts, evidence.patch_area, evidence.mesh_of);
+    PartitionTerms terms;
+    terms.crease = boundary_crease(evidence.neighbors, labels, static_cast<int>(shares.cols()));
+    terms.overlap = overlap_agreement(evidence.overlaps, labels, evidence.patch_area);
+    for (const ChoiceDescriptor& d : evidence.descriptors)
+        terms.explained.push_back(
+            between_part_variance(d.histograms, labels, parts, evidence.patch_area, evidence.mesh_of));
+    terms.concavity = boundary_concavity(evidence.neighbors, labels);
+    terms.presence = presence(shares);
+    terms.link_consistency = link_consistency(comm, evidence.links, labels, parts, evidence.patch_area);
+    return terms;
+}
+
 std::vector<double> partition_scores(std::span<const PartitionTerms> partitions, const ChoiceWeights& weights,
                                      std::span<const BetweenPartVariance> descriptor_weights) {
     std::vector<double> scores(partitions.size(), 0.0);

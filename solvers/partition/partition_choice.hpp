@@ -9,49 +9,29 @@
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/records/start_outcome.hpp"
 
 namespace coseg {
-
-/// How much of a descriptor's spread inside the meshes lies between the parts, see between_part_variance(); in [0, 1].
-struct BetweenPartVariance {
-    double pooled = 0.0;    ///< by one mean a part, the same in all meshes
-    double per_mesh = 0.0;  ///< by means of each mesh's own; at least `pooled`, but for rounding
-    friend bool operator==(const BetweenPartVariance&, const BetweenPartVariance&) = default;
-};
-
-/// What speaks for a partition; larger is better in each.
-struct PartitionTerms {
-    double crease = 0.0;                         ///< see boundary_crease(); at most 0
-    double overlap = 0.0;                        ///< see overlap_agreement(); in [0, 1]
-    std::vector<BetweenPartVariance> explained;  ///< per descriptor
-    double concavity =
-        0.0;  ///< mean concavity mc along the boundaries between parts, weighted by length; in [0, 1]
-    double presence = 0.0;          ///< see presence(); in [0, 1]
-    double link_consistency = 0.0;  ///< see link_consistency(); in [0, 1]
-};
-
-/// How the terms are weighed: crease, overlap and what is explained of the descriptors make a score; among the partitions
-/// whose score comes within `margin` of the best, the last three decide together with it.
-struct ChoiceWeights {
-    double crease = 1.9;
-    double overlap = 1.6;
-    /// Deviations over the partitions that count at least: where nearly all partitions are alike, what sets the odd one
-    /// apart is not magnified.
-    double least_crease = 0.2;
-    double least_overlap = 0.0025;
-    double least_explained = 0.07;
-    double margin = 0.3;  ///< share of the way from the best score down to the median of all
-    double score = 1.3;   ///< of the score itself among those within the margin
-    double concavity = 1.2;
-    double presence = 0.8;
-    double link_consistency = 0.6;
-};
 
 /// A descriptor that a good partition should explain.
 struct ChoiceDescriptor {
     Eigen::MatrixXf histograms;  ///< bins x N, column major, of any scale; or other numbers of a patch
     BetweenPartVariance weight;  ///< of what is explained of it in the score
 };
+
+/// What the terms of a partition are found from; the same on all ranks but for `links`.
+struct PartitionEvidence {
+    const std::vector<GlobalPatchNeighbors>& neighbors;
+    const std::vector<GlobalPatchOverlap>& overlaps;
+    std::span<const ChoiceDescriptor> descriptors;
+    const SparseRows& links;  ///< this rank's rows of the affinity between meshes
+    const std::vector<int>& mesh_of;
+    const std::vector<double>& patch_area;
+};
+
+/// All terms of the partition `labels`, 0 .. parts - 1 per patch. Collective.
+PartitionTerms partition_terms(const Comm& comm, const PartitionEvidence& evidence,
+                               const std::vector<int>& labels, int parts);
 
 /// Length-weighted mean concavity over neighbours of different labels; 0 if no two neighbours differ.
 double boundary_concavity(const std::vector<GlobalPatchNeighbors>& neighbors, const std::vector<int>& labels);
@@ -61,45 +41,47 @@ double boundary_concavity(const std::vector<GlobalPatchNeighbors>& neighbors, co
 std::vector<double> mean_area_shares(const std::vector<int>& labels, int parts,
                                      const std::vector<double>& patch_area, const std::vector<int>& mesh_of);
 
-/// Share of the (part, mesh) pairs in which the mesh has at least a quarter of the part's mean share; a part without
-/// any area is present nowhere. Well below 1 where parts split by shape. `shares` as above.
+/// Share of the (part, mesh) pairs in which the mesh has at least a quarter of the part's mean share; a part
+/// without any area is present nowhere. Well below 1 where parts split by shape. `shares` as above.
 double presence(const Eigen::MatrixXd& shares);
 
-/// Minus the total over boundaries between parts of length (1 - mc)^2, divided by the number of meshes: long boundaries
-/// outside creases are dear. `meshes` at least 1.
+/// Minus the total over boundaries between parts of length (1 - mc)^2, divided by the number of meshes: long
+/// boundaries outside creases are dear. `meshes` at least 1.
 double boundary_crease(const std::vector<GlobalPatchNeighbors>& neighbors, const std::vector<int>& labels,
                        int meshes);
 
-/// How far the over-segmentations agree on the parts: of each patch the share of its overlaps (by intersection over
-/// union) with patches of its own part; mean over patches that overlap any, weighted by area. 1 without overlaps.
+/// How far the over-segmentations agree on the parts: of each patch the share of its overlaps (by
+/// intersection over union) with patches of its own part; mean over patches that overlap any, weighted by
+/// area. 1 without overlaps.
 double overlap_agreement(const std::vector<GlobalPatchOverlap>& overlaps, const std::vector<int>& labels,
                          const std::vector<double>& patch_area);
 
-/// How often the links between meshes lead to the own part: per part the share of its area in patches whose links weigh
-/// more on their own part than on any other; mean over the parts. `links`: this rank's rows of a symmetric affinity
-/// between meshes, `labels` 0 .. parts - 1 of all patches. Collective.
+/// How often the links between meshes lead to the own part: per part the share of its area in patches whose
+/// links weigh more on their own part than on any other; mean over the parts. `links`: this rank's rows of a
+/// symmetric affinity between meshes, `labels` 0 .. parts - 1 of all patches. Collective.
 double link_consistency(const Comm& comm, const SparseRows& links, const std::vector<int>& labels, int parts,
                         const std::vector<double>& patch_area);
 
-/// The spread is the sum over patches of a |x - mean of the mesh|^2, x the histogram and a the area of the patch. `per_mesh` is the
-/// share of it in the sum over meshes and parts of a |mean of the part in the mesh - mean of the mesh|^2: parts that
-/// differ inside each shape. `pooled` is the share in the sum over parts of a |mean over the part of x - mean of the
-/// mesh|^2: parts that differ in the same way in all shapes. What tells shapes apart counts in neither, or a partition
-/// by style (round legs, square legs) would seem to explain much. Both 0 where patches of a mesh are all alike. Sums in
-/// double, in the order of patches.
+/// The spread is the sum over patches of a |x - mean of the mesh|^2, x the histogram and a the area of the
+/// patch. `per_mesh` is the share of it in the sum over meshes and parts of a |mean of the part in the mesh -
+/// mean of the mesh|^2: parts that differ inside each shape. `pooled` is the share in the sum over parts of a
+/// |mean over the part of x - mean of the mesh|^2: parts that differ in the same way in all shapes. What
+/// tells shapes apart counts in neither, or a partition by style (round legs, square legs) would seem to
+/// explain much. Both 0 where patches of a mesh are all alike. Sums in double, in the order of patches.
 BetweenPartVariance between_part_variance(const Eigen::MatrixXf& histograms, const std::vector<int>& labels,
                                           int parts, const std::vector<double>& patch_area,
                                           const std::vector<int>& mesh_of);
 
-/// Per partition the weighted sum of its terms of the score, each standardised over all partitions: mean 0, deviation 1, or less
-/// where the deviation is below its least. `descriptor_weights`: one for each of PartitionTerms::explained.
+/// Per partition the weighted sum of its terms of the score, each standardised over all partitions: mean 0,
+/// deviation 1, or less where the deviation is below its least. `descriptor_weights`: one for each of
+/// PartitionTerms::explained.
 std::vector<double> partition_scores(std::span<const PartitionTerms> partitions, const ChoiceWeights& weights,
                                      std::span<const BetweenPartVariance> descriptor_weights);
 
-/// Which partition to take of those that `eligible` marks (at least one): those whose scores come within the margin of
-/// the best make a short list; in it the score counts as it is, and concavity, presence and link_consistency standardised over the list (by at least
-/// .15 of their deviation over all partitions, so that near ties stay near). Ties: the first.
-/// Deviates: the paper makes one cut.
+/// Which partition to take of those that `eligible` marks (at least one): those whose scores come within the
+/// margin of the best make a short list; in it the score counts as it is, and concavity, presence and
+/// link_consistency standardised over the list (by at least .15 of their deviation over all partitions, so
+/// that near ties stay near). Ties: the first. Deviates: the paper makes one cut.
 std::size_t best_partition(std::span<const PartitionTerms> partitions, std::span<const double> scores,
                            const std::vector<bool>& eligible, const ChoiceWeights& weights);
 

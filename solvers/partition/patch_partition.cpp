@@ -11,6 +11,7 @@
 #include "solvers/spectral/normalized_cut.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -30,10 +31,17 @@ struct CutTerms {
     SparseRows within_mesh_affinity;  ///< A' + O', complete: what a patch set aside follows
 };
 
+/// What came of the start of this number.
 struct LabelledOutcome {
     int index = 0;
     StartOutcome outcome;
     std::vector<int> labels;
+    std::vector<double> eigenvalues;  ///< as in CutResult
+    static constexpr auto fields() {
+        return std::tuple(
+            field("index", &LabelledOutcome::index), field("outcome", &LabelledOutcome::outcome),
+            field("labels", &LabelledOutcome::labels), field("eigenvalues", &LabelledOutcome::eigenvalues));
+    }
 };
 
 bool asks_for_positions(const CutOptions& options) {
@@ -161,21 +169,6 @@ Clustering clustering_of(const GraphCut& cut, int count) {
     return result;
 }
 
-PartitionTerms terms_of(const GraphCut& cut, const std::vector<int>& labels, int parts) {
-    const CutInput& input = cut.input;
-    const Eigen::MatrixXd shares = area_shares(labels, parts, input.patch_area, input.mesh_of);
-    PartitionTerms terms;
-    terms.crease = boundary_crease(cut.terms.neighbors, labels, static_cast<int>(shares.cols()));
-    terms.overlap = overlap_agreement(cut.terms.overlaps, labels, input.patch_area);
-    for (const ChoiceDescriptor& d : input.descriptors)
-        terms.explained.push_back(
-            between_part_variance(d.histograms, labels, parts, input.patch_area, input.mesh_of));
-    terms.concavity = boundary_concavity(cut.terms.neighbors, labels);
-    terms.presence = presence(shares);
-    terms.link_consistency = link_consistency(cut.group, cut.terms.base, labels, parts, input.patch_area);
-    return terms;
-}
-
 int cluster_count(const GraphCut& cut, int index) {
     const int asked = cut.options.starts[at(index)].clusters;
     return std::min(asked, static_cast<int>(cut.embedding.eigenvalues.size()));
@@ -189,8 +182,8 @@ LabelledOutcome run_start(const GraphCut& cut, int index, const Clustering& clus
     result.outcome.start = start;
     result.outcome.set_aside = clusters.set_aside;
     result.outcome.unreached = clusters.unreached;
-    result.outcome.eigenvalues.assign(cut.embedding.eigenvalues.begin(),
-                                      cut.embedding.eigenvalues.begin() + clusters.count);
+    result.eigenvalues.assign(cut.embedding.eigenvalues.begin(),
+                              cut.embedding.eigenvalues.begin() + clusters.count);
     const std::vector<int> part_of_cluster =
         merge_clusters(clusters.links, clusters.sizes, cut.options.parts, start.merging);
     for (const int cluster : clusters.labels) result.labels.push_back(part_of_cluster[at(cluster)]);
@@ -206,8 +199,13 @@ void add_terms(const GraphCut& cut, const std::vector<LabelledOutcome>& earlier,
     const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const LabelledOutcome& other) {
         return other.labels == result.labels;
     });
-    result.outcome.terms =
-        same != earlier.end() ? same->outcome.terms : terms_of(cut, result.labels, cut.options.parts);
+    if (same != earlier.end()) {
+        result.outcome.terms = same->outcome.terms;
+        return;
+    }
+    const PartitionEvidence evidence{cut.terms.neighbors, cut.terms.overlaps, cut.input.descriptors,
+                                     cut.terms.base,      cut.input.mesh_of,  cut.input.patch_area};
+    result.outcome.terms = partition_terms(cut.group, evidence, result.labels, cut.options.parts);
 }
 
 /// The starts that share a graph, in the order of their first.
@@ -247,61 +245,11 @@ std::vector<LabelledOutcome> run_graph(const Comm& group, const CutInput& input,
     return outcomes;
 }
 
-void append_terms(const PartitionTerms& terms, std::vector<double>& values) {
-    values.insert(values.end(),
-                  {terms.crease, terms.overlap, terms.concavity, terms.presence, terms.link_consistency});
-    for (const BetweenPartVariance& e : terms.explained) values.insert(values.end(), {e.pooled, e.per_mesh});
-}
-
-/// The inverse of append_terms; moves `value` on.
-PartitionTerms next_terms(std::vector<double>::const_iterator& value, std::size_t descriptors) {
-    PartitionTerms terms;
-    for (double* term :
-         {&terms.crease, &terms.overlap, &terms.concavity, &terms.presence, &terms.link_consistency}) {
-        *term = *value++;
-    }
-    terms.explained.resize(descriptors);
-    for (BetweenPartVariance& e : terms.explained) {
-        e.pooled = *value++;
-        e.per_mesh = *value++;
-    }
-    return terms;
-}
-
-/// Outcomes of all ranks on all ranks, in the order of starts. Collective.
-std::vector<LabelledOutcome> share_outcomes(const Comm& comm, const std::vector<LabelledOutcome>& local,
-                                            const CutOptions& options, std::size_t patches,
-                                            std::size_t descriptors) {
-    std::vector<int> numbers;
-    std::vector<double> values;
-    for (const LabelledOutcome& r : local) {
-        numbers.insert(numbers.end(), {r.index, r.outcome.parts_found, r.outcome.set_aside,
-                                       r.outcome.unreached, static_cast<int>(r.outcome.eigenvalues.size())});
-        numbers.insert(numbers.end(), r.labels.begin(), r.labels.end());
-        append_terms(r.outcome.terms, values);
-        values.insert(values.end(), r.outcome.eigenvalues.begin(), r.outcome.eigenvalues.end());
-    }
-    numbers = all_gather(comm, std::span<const int>(numbers));
-    values = all_gather(comm, std::span<const double>(values));
-    std::vector<LabelledOutcome> all(options.starts.size());
-    auto number = numbers.begin();
-    auto value = values.cbegin();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const int index = *number++;
-        LabelledOutcome& r = all[at(index)];
-        r.index = index;
-        r.outcome.start = options.starts[at(index)];
-        r.outcome.parts_found = *number++;
-        r.outcome.set_aside = *number++;
-        r.outcome.unreached = *number++;
-        const int eigenvalues = *number++;
-        r.labels.assign(number, number + static_cast<std::ptrdiff_t>(patches));
-        number += static_cast<std::ptrdiff_t>(patches);
-        r.outcome.terms = next_terms(value, descriptors);
-        r.outcome.eigenvalues.assign(value, value + eigenvalues);
-        value += eigenvalues;
-    }
-    return all;
+/// Puts outcomes into the order of the starts.
+std::vector<LabelledOutcome> in_order(std::vector<LabelledOutcome> outcomes) {
+    std::sort(outcomes.begin(), outcomes.end(),
+              [](const LabelledOutcome& a, const LabelledOutcome& b) { return a.index < b.index; });
+    return outcomes;
 }
 
 /// Graphs dealt over the ranks, each cut by one of them. Collective.
@@ -316,19 +264,17 @@ std::vector<LabelledOutcome> run_dealt(const Comm& comm, const Comm& self, const
             }
         }
     });
-    return share_outcomes(comm, mine, options, input.mesh_of.size(), input.descriptors.size());
+    return in_order(all_gather_records(comm, mine));
 }
 
 /// One graph after the other, each cut by all ranks. Collective.
 std::vector<LabelledOutcome> run_together(const Comm& comm, const CutInput& input, const CutOptions& options,
                                           const CutTerms& terms) {
-    std::vector<LabelledOutcome> all(options.starts.size());
+    std::vector<LabelledOutcome> all;
     for (const std::vector<int>& starts : starts_by_graph(options.starts)) {
-        for (LabelledOutcome& r : run_graph(comm, input, options, terms, starts)) {
-            all[at(r.index)] = std::move(r);
-        }
+        for (LabelledOutcome& r : run_graph(comm, input, options, terms, starts)) all.push_back(std::move(r));
     }
-    return all;
+    return in_order(std::move(all));
 }
 
 /// The start to take; gives every outcome its score. Starts with fewer parts than others found are not eligible.
@@ -433,7 +379,8 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
     std::vector<LabelledOutcome> outcomes =
         one_rank ? run_dealt(comm, self, input, options, terms) : run_together(comm, input, options, terms);
     result.chosen = static_cast<int>(choose(outcomes, input, options.choice));
-    result.part_of_patch = outcomes[at(result.chosen)].labels;
+    result.part_of_patch = std::move(outcomes[at(result.chosen)].labels);
+    result.eigenvalues = std::move(outcomes[at(result.chosen)].eigenvalues);
     for (LabelledOutcome& r : outcomes) result.starts.push_back(std::move(r.outcome));
     result.frame = terms.frame;
     describe_parts(input.mesh_of, input.patch_area, options.parts, result);

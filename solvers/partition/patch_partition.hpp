@@ -12,6 +12,7 @@
 #include "solvers/spectral/spectral_embedding.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/records/cut_result.hpp"
 
 namespace coseg {
 
@@ -19,23 +20,6 @@ namespace coseg {
 enum class AffinityForm {
     paper,  ///< equation (8)
     links,  ///< every patch's own links sum to 1, see normalized_links; deviates
-};
-
-/// The graph S = base + adjacency A' + overlap O', with A' and O' of affinity.hpp scaled to the total of the
-/// base.
-struct GraphWeights {
-    double adjacency = 0.0;
-    double overlap = 0.0;
-    bool placed =
-        false;  ///< the base weighed by the positions of its ends, see position_correlation.hpp; A' and O' of its total
-    friend bool operator==(const GraphWeights&, const GraphWeights&) = default;
-};
-
-/// One attempt: the graph is cut into `clusters`, these are merged into the parts by their links in it.
-struct CutStart {
-    GraphWeights graph;
-    int clusters = 2;
-    MergeRule merging = MergeRule::normalized_cut;
 };
 
 /// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 5K/2, 3K}, more than K merged by both rules.
@@ -72,26 +56,6 @@ struct CutOptions {
     ChoiceWeights choice;
     /// Up to so many entries of the base affinity a start is one rank's work, which takes about 100 bytes an entry.
     std::int64_t one_rank_entries = 60'000'000;
-};
-
-/// What came of a start.
-struct StartOutcome {
-    CutStart start;
-    PartitionTerms terms;
-    double score = 0.0;   ///< see partition_scores
-    int parts_found = 0;  ///< parts with a patch; fewer than asked for where clusters came out empty
-    int set_aside = 0;    ///< patches that took no part in the cut and followed their neighbours
-    int unreached = 0;    ///< of these: without any labelled neighbour, given to the largest cluster
-    std::vector<double> eigenvalues;  ///< of the start's graph, descending, as many as `clusters`
-};
-
-struct CutResult {
-    std::vector<int> part_of_patch;  ///< 0 .. parts - 1, by decreasing mean area share; the same on all ranks
-    std::vector<double> part_share;  ///< mean over meshes of the part's share of area
-    std::vector<int> meshes_with_part;  ///< in how many meshes the part occurs; few is a warning sign
-    std::vector<StartOutcome> starts;   ///< in the order of CutOptions::starts
-    PositionFrame frame;                ///< of the base; without correlation where no start is placed
-    int chosen = 0;                     ///< the start taken: best_partition of those with the most parts
 };
 
 /// A partition that was found in another way, numbered and described as partition_patches does; without starts.

@@ -20,7 +20,10 @@ namespace coseg {
 
 namespace {
 
-enum Scalar : std::size_t { fit, norms, entries, distance2, fit_curvature, scalar_count };
+/// What is summed over all ranks.
+struct DenseSums {
+    enum : std::size_t { fit, norms, entries, distance2, fit_curvature, count };
+};
 
 /// A point of the iteration: the owned columns of W, their residuals X W - X and everybody's row sums.
 struct DensePoint {
@@ -80,7 +83,7 @@ DenseModel::DenseModel(const Comm& comm, const SubspaceProblem& problem, const F
       current_(zero_point(stack, columns)),
       trial_(current_),
       gradient_(current_.weights),
-      sums_(current_.row_sums.size(), row_sum_scale(stack, problem.lambda), scalar_count) {
+      sums_(current_.row_sums.size(), row_sum_scale(stack, problem.lambda), DenseSums::count) {
     compute_gradient();
 }
 
@@ -132,11 +135,11 @@ void DenseModel::measure_tile(std::int64_t begin, std::int64_t end) {
         tile_fit += z * z;
         tile_curvature += change * change;
     }
-    sums_.add_scalar(fit, tile_fit);
-    sums_.add_scalar(norms, tile_norms_);
-    sums_.add_scalar(entries, tile_entries_);
-    sums_.add_scalar(distance2, tile_distance2_);
-    sums_.add_scalar(fit_curvature, tile_curvature);
+    sums_.add_scalar(DenseSums::fit, tile_fit);
+    sums_.add_scalar(DenseSums::norms, tile_norms_);
+    sums_.add_scalar(DenseSums::entries, tile_entries_);
+    sums_.add_scalar(DenseSums::distance2, tile_distance2_);
+    sums_.add_scalar(DenseSums::fit_curvature, tile_curvature);
 }
 
 TrialPoint DenseModel::finish_trial() {
@@ -153,12 +156,12 @@ TrialPoint DenseModel::finish_trial() {
         }
     }
     TrialPoint trial;
-    trial.objective = sums_.overflowed()
-                          ? std::numeric_limits<double>::infinity()
-                          : sums_.scalar(fit) + problem_.lambda * row_squares +
-                                problem_.alpha * sums_.scalar(norms) + problem_.beta * sums_.scalar(entries);
-    trial.distance2 = sums_.scalar(distance2);
-    trial.curvature = 2.0 * (sums_.scalar(fit_curvature) + problem_.lambda * row_curvature);
+    trial.objective = sums_.overflowed() ? std::numeric_limits<double>::infinity()
+                                         : sums_.scalar(DenseSums::fit) + problem_.lambda * row_squares +
+                                               problem_.alpha * sums_.scalar(DenseSums::norms) +
+                                               problem_.beta * sums_.scalar(DenseSums::entries);
+    trial.distance2 = sums_.scalar(DenseSums::distance2);
+    trial.curvature = 2.0 * (sums_.scalar(DenseSums::fit_curvature) + problem_.lambda * row_curvature);
     trial_.objective = trial.objective;
     return trial;
 }

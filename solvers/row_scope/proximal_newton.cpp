@@ -14,13 +14,16 @@ namespace coseg {
 
 namespace {
 
-constexpr int newton_limit = 20;
-constexpr int halving_limit = 12;
+constexpr int ascent_limit = 20;
+constexpr int ascent_halving_limit = 12;
 constexpr double sufficient_increase = 1e-4;
 /// ||X W - X V|| <= this * ||W - centre|| / sqrt(reach) is near enough to the proximal point.
 constexpr double sufficient_gradient = 0.3;
 constexpr double smallest_gradient = 1e-14;  ///< relative to ||X||
-enum Scalar : std::size_t { value, gradient2, distance2, scalar_count };
+/// What is summed over all ranks.
+struct DualSums {
+    enum : std::size_t { value, gradient2, distance2, count };
+};
 
 }  // namespace
 
@@ -35,7 +38,7 @@ ProximalNewton::ProximalNewton(const Comm& comm, const SubspaceProblem& problem,
       exchange_(exchange),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
       newton_(comm, problem, stack, columns, exchange),
-      sums_(scalar_count) {}
+      sums_(DualSums::count) {}
 
 void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double>& product) const {
     product.resize(vector.size());
@@ -47,7 +50,7 @@ void ProximalNewton::apply(const std::vector<double>& vector, std::vector<double
 void ProximalNewton::shrink_rows(double reach, std::vector<double>& prices) {
     const auto features = at(stack_.features);
     std::vector<double> row_sums(features);
-    add_by_tiles<1>(exchange_.owned_rows().size(), value, sums_, [&](std::int64_t r, double* tile) {
+    add_by_tiles<1>(exchange_.owned_rows().size(), DualSums::value, sums_, [&](std::int64_t r, double* tile) {
         const std::span<double> row = exchange_.row(by_row_, r);
         prox_.shrink(row, reach, std::span(prices).subspan(at(r) * features, features));
         tile[0] += prox_.penalty(row, row_sums);
@@ -57,7 +60,7 @@ void ProximalNewton::shrink_rows(double reach, std::vector<double>& prices) {
 /// Calls add(at, sums) for every value of every column, sums[k] being of the k-th scalar.
 template <class Add>
 void ProximalNewton::sum_values(Add&& add) {
-    add_by_tiles<scalar_count>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
+    add_by_tiles<DualSums::count>(std::ssize(fits_), 0, sums_, [&](std::int64_t c, double* tile) {
         const auto column = at(c);
         for (std::size_t entry = offset_[column]; entry < offset_[column + 1]; ++entry) add(entry, tile);
     });
@@ -77,13 +80,14 @@ void ProximalNewton::evaluate(Point& point, const std::vector<double>& centre, d
     sum_values([&](std::size_t entry, double* tile) {
         const double weight = point.weights[entry];
         const double change = weight - centre[entry];
-        tile[value] += 2.0 * (point.dual_product[entry] - linear_[entry]) * weight -
-                       point.dual[entry] * point.dual_product[entry] + change * change / (2.0 * reach);
-        tile[distance2] += change * change;
+        tile[DualSums::value] += 2.0 * (point.dual_product[entry] - linear_[entry]) * weight -
+                                 point.dual[entry] * point.dual_product[entry] +
+                                 change * change / (2.0 * reach);
+        tile[DualSums::distance2] += change * change;
     });
     point.value = sums_.overflowed() ? -std::numeric_limits<double>::infinity()
-                                     : stack_.squared_norm + sums_.scalar(value);
-    point.distance2 = sums_.scalar(distance2);
+                                     : stack_.squared_norm + sums_.scalar(DualSums::value);
+    point.distance2 = sums_.scalar(DualSums::distance2);
 }
 
 /// Fills in G W and the dual's gradient.
@@ -91,10 +95,10 @@ void ProximalNewton::differentiate(Point& point) {
     apply(point.weights, point.product);
     sums_.clear();
     sum_values([&](std::size_t entry, double* tile) {
-        tile[gradient2] +=
+        tile[DualSums::gradient2] +=
             (point.product[entry] - point.dual_product[entry]) * (point.weights[entry] - point.dual[entry]);
     });
-    point.gradient2 = std::max(sums_.scalar(gradient2), 0.0);
+    point.gradient2 = std::max(sums_.scalar(DualSums::gradient2), 0.0);
 }
 
 /// Newton's direction of V. Returns the dual's slope along it, which is not negative.
@@ -109,9 +113,10 @@ double ProximalNewton::find_direction(double reach) {
     apply(direction_, direction_product_);
     sums_.clear();
     sum_values([&](std::size_t entry, double* tile) {
-        tile[value] += 2.0 * (current_.product[entry] - current_.dual_product[entry]) * direction_[entry];
+        tile[DualSums::value] +=
+            2.0 * (current_.product[entry] - current_.dual_product[entry]) * direction_[entry];
     });
-    return sums_.scalar(value);
+    return sums_.scalar(DualSums::value);
 }
 
 /// False if no step of the direction raises the dual.
@@ -123,7 +128,7 @@ bool ProximalNewton::step_along_direction(const std::vector<double>& centre, dou
     // Near the optimum an increase is smaller than the rounding of the value.
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * stack_.squared_norm;
     double size = 1.0;
-    for (int halving = 0; halving < halving_limit; ++halving, size *= 0.5) {
+    for (int halving = 0; halving < ascent_halving_limit; ++halving, size *= 0.5) {
         for (std::size_t entry = 0; entry < count; ++entry) {
             trial_.dual[entry] = current_.dual[entry] + size * direction_[entry];
             trial_.dual_product[entry] = current_.dual_product[entry] + size * direction_product_[entry];
@@ -151,7 +156,7 @@ ProximalPoint ProximalNewton::minimise(const std::vector<double>& centre,
                std::max(sufficient_gradient * sufficient_gradient * current_.distance2 / reach, rounding2);
     };
     int steps = 0;
-    while (steps < newton_limit && !reached()) {
+    while (steps < ascent_limit && !reached()) {
         const double slope = find_direction(reach);
         if (!step_along_direction(centre, reach, slope, prices)) break;
         ++steps;

@@ -12,7 +12,10 @@ namespace coseg {
 
 namespace {
 
-enum Scalar : std::size_t { fit, distance2, curvature, penalty, scalar_count };
+/// What is summed over all ranks.
+struct ModelSums {
+    enum : std::size_t { fit, distance2, curvature, penalty, count };
+};
 
 std::vector<int> all_rows(const WorkingSet& working) {
     std::vector<int> rows;
@@ -48,7 +51,7 @@ WorkingSetModel::WorkingSetModel(const Comm& comm, const SubspaceProblem& proble
       exchange_(comm, stack.size, stack.features, all_rows(working)),
       prox_(stack.features, problem.alpha, problem.beta, problem.lambda),
       proximal_(comm, problem, stack, {working.fits, offset_}, linear_, exchange_),
-      sums_(scalar_count) {
+      sums_(ModelSums::count) {
     for (const RowScopeColumn& column : working.fits) {
         linear_.insert(linear_.end(), column.linear.begin(), column.linear.end());
         forward_.insert(forward_.end(), column.weights.begin(), column.weights.end());
@@ -80,26 +83,27 @@ std::optional<int> WorkingSetModel::proximal_step(double reach) {
 void WorkingSetModel::shrink_rows(double step) {
     const auto features = at(stack_.features);
     sums_.clear();
-    add_by_tiles<1>(exchange_.owned_rows().size(), penalty, sums_, [&](std::int64_t r, double* tile) {
-        const std::span<double> row = exchange_.row(by_row_, r);
-        const std::size_t entry = at(r) * features;
-        if (step > 0.0) prox_.shrink(row, step, std::span(prices_).subspan(entry, features));
-        tile[0] += prox_.penalty(row, std::span(trial_.row_sums).subspan(entry, features));
-    });
+    add_by_tiles<1>(exchange_.owned_rows().size(), ModelSums::penalty, sums_,
+                    [&](std::int64_t r, double* tile) {
+                        const std::span<double> row = exchange_.row(by_row_, r);
+                        const std::size_t entry = at(r) * features;
+                        if (step > 0.0) prox_.shrink(row, step, std::span(prices_).subspan(entry, features));
+                        tile[0] += prox_.penalty(row, std::span(trial_.row_sums).subspan(entry, features));
+                    });
     exchange_.to_columns(by_row_, trial_.weights);
 }
 
 void WorkingSetModel::measure_columns() {
-    add_by_tiles<3>(std::ssize(working_.fits), fit, sums_, [&](std::int64_t c, double* tile) {
+    add_by_tiles<3>(std::ssize(working_.fits), ModelSums::fit, sums_, [&](std::int64_t c, double* tile) {
         const auto column = at(c);
         apply_gram(stack_, working_.fits[column], trial_.weights.data() + offset_[column],
                    trial_.product.data() + offset_[column]);
         for (std::size_t entry = offset_[column]; entry < offset_[column + 1]; ++entry) {
             const double weight = trial_.weights[entry];
             const double change = weight - current_.weights[entry];
-            tile[fit] += weight * (trial_.product[entry] - 2.0 * linear_[entry]);
-            tile[distance2] += change * change;
-            tile[curvature] += 2.0 * change * (trial_.product[entry] - current_.product[entry]);
+            tile[ModelSums::fit] += weight * (trial_.product[entry] - 2.0 * linear_[entry]);
+            tile[ModelSums::distance2] += change * change;
+            tile[ModelSums::curvature] += 2.0 * change * (trial_.product[entry] - current_.product[entry]);
         }
     });
 }
@@ -107,10 +111,10 @@ void WorkingSetModel::measure_columns() {
 TrialPoint WorkingSetModel::finish_trial() {
     sums_.reduce(comm_);
     TrialPoint trial;
-    trial.objective = stack_.squared_norm + (sums_.scalar(fit) + sums_.scalar(penalty));
+    trial.objective = stack_.squared_norm + (sums_.scalar(ModelSums::fit) + sums_.scalar(ModelSums::penalty));
     if (sums_.overflowed()) trial.objective = std::numeric_limits<double>::infinity();
-    trial.distance2 = sums_.scalar(distance2);
-    trial.curvature = std::max(sums_.scalar(curvature), 0.0);
+    trial.distance2 = sums_.scalar(ModelSums::distance2);
+    trial.curvature = std::max(sums_.scalar(ModelSums::curvature), 0.0);
     trial_.objective = trial.objective;
     return trial;
 }

@@ -267,7 +267,7 @@ PassFindings WorkingSetSolve::resume(const SolveIterate& known) {
         objective_ = known.objective;
         limited_ = true;
         result_.kkt_residual = known.residual;
-        rule_.give_up(static_cast<StopReason>(known.reason));
+        rule_.give_up(known.reason);
     }
     PassFindings findings;
     findings.lower_bound = known.lower_bound;
@@ -282,7 +282,7 @@ void WorkingSetSolve::close_checkpoint(bool was_finished) {
         kept.finished = true;
         kept.objective = objective_;
         kept.residual = result_.kkt_residual;
-        kept.reason = static_cast<int>(rule_.limit());
+        kept.reason = rule_.limit();
         options_.checkpoint->keep_iterate(kept);
     }
     options_.checkpoint->close(stopped_);

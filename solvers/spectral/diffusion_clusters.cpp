@@ -15,7 +15,7 @@ namespace coseg {
 
 namespace {
 
-void check(const FeatureMatrices& features, const DiffusionOptions& options) {
+void check_input(const FeatureMatrices& features, const DiffusionOptions& options) {
     const std::int64_t patches = features.columns();
     if (patches > options.most) {
         throw Error(ExitCode::usage,
@@ -135,7 +135,7 @@ std::vector<int> diffusion_clusters(const Comm& comm, const FeatureMatrices& fea
                                     const DiffusionOptions& options) {
     Clustering best;
     agree(comm, [&] {
-        check(features, options);
+        check_input(features, options);
         const Comm self(MPI_COMM_SELF);
         const Eigen::MatrixXd points =
             diffusion_map(self, gaussian_affinity(squared_distances(features)), options);

@@ -10,7 +10,7 @@ namespace coseg {
 
 namespace {
 
-constexpr double wanted = 1.0;
+constexpr double product_wanted = 1.0;
 constexpr double no_more = 0.0;
 
 PetscErrorCode multiply_shell(Mat matrix, Vec x, Vec y) {
@@ -86,7 +86,7 @@ void ServedProduct::subtract_balance(const double* x, double* y) {
 
 void ServedProduct::multiply(const double* x, double* y) {
     std::copy_n(x, matrix_.size, message_.begin());
-    message_.back() = wanted;
+    message_.back() = product_wanted;
     if (comm_.size() > 1)
         MPI_Bcast(message_.data(), static_cast<int>(message_.size()), MPI_DOUBLE, 0, comm_.raw());
     multiply_rows();

@@ -3,26 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "src/parallel/comm.hpp"
+#include "src/records/solve_summary.hpp"
 
 namespace coseg {
-
-/// The state of the whole problem after a pass over all pairs. It is the same on all ranks and on any number
-/// of ranks.
-struct HistoryRow {
-    int pass = 0;        ///< from 1
-    int iterations = 0;  ///< so far; where columns are independent, of the column that took most
-    double objective = 0.0;
-    double lower_bound = 0.0;        ///< the best so far
-    double relative_gap = 0.0;       ///< as SolveResult::relative_gap
-    std::int64_t working_pairs = 0;  ///< in the working set at the time of the pass
-
-    bool operator==(const HistoryRow&) const = default;
-};
-
-using SolveHistory = std::vector<HistoryRow>;
 
 inline constexpr std::size_t most_history_rows = 256;
 
@@ -42,6 +29,11 @@ struct ColumnRound {
     std::int64_t working_pairs = 0;
 
     bool operator==(const ColumnRound&) const = default;
+    static constexpr auto fields() {
+        return std::tuple(field("reached", &ColumnRound::reached), field("bound", &ColumnRound::bound),
+                          field("iterations", &ColumnRound::iterations),
+                          field("working_pairs", &ColumnRound::working_pairs));
+    }
 };
 
 /// Appends a round. From most_history_rows on the last one is replaced.

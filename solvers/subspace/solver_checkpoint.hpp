@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "solvers/subspace/solve_history.hpp"
 #include "solvers/subspace/spectral_projected_gradient.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
 #include "src/parallel/block_range.hpp"
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -30,6 +32,16 @@ struct SolvedTile {
     std::int64_t working_pairs = 0;
     bool limited = false;             ///< a column stopped at the iteration limit
     std::vector<ColumnRound> rounds;  ///< of all columns together, in terms of decrease
+    static constexpr auto fields() {
+        return std::tuple(field("begin", &SolvedTile::begin), field("end", &SolvedTile::end),
+                          field("offsets", &SolvedTile::offsets), field("rows", &SolvedTile::rows),
+                          field("values", &SolvedTile::values), field("decrease", &SolvedTile::decrease),
+                          field("largest_decrease", &SolvedTile::largest_decrease),
+                          field("residual", &SolvedTile::residual),
+                          field("iterations", &SolvedTile::iterations), field("passes", &SolvedTile::passes),
+                          field("working_pairs", &SolvedTile::working_pairs),
+                          field("limited", &SolvedTile::limited), field("rounds", &SolvedTile::rounds));
+    }
 };
 
 /// The state of the schedule of proximal points in the solve on the working set.
@@ -38,6 +50,11 @@ struct ProximalTurns {
     double reach = 0.0;
     double largest_reach = 0.0;
     double sufficient_gap = 0.0;  ///< of the working set's problem, once proximal points are needed
+    static constexpr auto fields() {
+        return std::tuple(field("next", &ProximalTurns::next), field("reach", &ProximalTurns::reach),
+                          field("largest_reach", &ProximalTurns::largest_reach),
+                          field("sufficient_gap", &ProximalTurns::sufficient_gap));
+    }
 };
 
 /// The state of row scope: in the middle of a solve on its working set, or at its end. It is a function of
@@ -60,7 +77,18 @@ struct SolveIterate {
     bool finished = false;
     double objective = 0.0;
     double residual = 0.0;
-    int reason = 0;  ///< a StopReason, used where the gap is not reached
+    StopReason reason = StopReason::gap_reached;  ///< used where the gap is not reached
+    static constexpr auto fields() {
+        return std::tuple(
+            field("columns", &SolveIterate::columns), field("offsets", &SolveIterate::offsets),
+            field("rows", &SolveIterate::rows), field("weights", &SolveIterate::weights),
+            field("prices", &SolveIterate::prices), field("spectral", &SolveIterate::spectral),
+            field("inner_gap", &SolveIterate::inner_gap), field("lower_bound", &SolveIterate::lower_bound),
+            field("iterations", &SolveIterate::iterations), field("passes", &SolveIterate::passes),
+            field("proximal", &SolveIterate::proximal), field("history", &SolveIterate::history),
+            field("finished", &SolveIterate::finished), field("objective", &SolveIterate::objective),
+            field("residual", &SolveIterate::residual), field("reason", &SolveIterate::reason));
+    }
 };
 
 /// What a solver should do with its iterate now.

@@ -15,6 +15,9 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <tuple>
+
+#include "src/records/fields.hpp"
 
 #include "src/base/index.hpp"
 
@@ -42,6 +45,11 @@ struct SpectralState {
     std::array<double, 10> recent{};  ///< objectives
     std::int64_t count = 0;           ///< of objectives so far
     int iterations = 0;               ///< accepted steps
+    static constexpr auto fields() {
+        return std::tuple(field("step", &SpectralState::step), field("recent", &SpectralState::recent),
+                          field("count", &SpectralState::count),
+                          field("iterations", &SpectralState::iterations));
+    }
 };
 
 class SpectralStep {

@@ -16,7 +16,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 std::vector<bool> boundary_vertices(const TriMesh& mesh) {
-    std::vector<bool> on_boundary(static_cast<std::size_t>(mesh.vertex_count()), false);
+    std::vector<bool> on_boundary(at(mesh.vertex_count()), false);
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
     for (std::size_t i = 0; i < sides.size(); ++i) {
         const bool paired = (i > 0 && share_edge(sides[i - 1], sides[i])) ||
@@ -41,7 +41,7 @@ double corner_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Ei
 
 Eigen::VectorXd angle_defects(const TriMesh& mesh) {
     Eigen::VectorXd angle_sum = Eigen::VectorXd::Zero(mesh.vertex_count());
-    std::vector<bool> used(static_cast<std::size_t>(mesh.vertex_count()), false);
+    std::vector<bool> used(at(mesh.vertex_count()), false);
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) {
             const int v = mesh.faces(k, f);
@@ -53,7 +53,7 @@ Eigen::VectorXd angle_defects(const TriMesh& mesh) {
     const std::vector<bool> on_boundary = boundary_vertices(mesh);
     Eigen::VectorXd defect = Eigen::VectorXd::Zero(mesh.vertex_count());
     for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const auto i = static_cast<std::size_t>(v);
+        const auto i = at(v);
         if (used[i]) defect[v] = (on_boundary[i] ? pi : 2 * pi) - angle_sum[v];
     }
     return defect;

@@ -114,9 +114,9 @@ void InsideRays::cast(const Eigen::Vector3d& origin, const Eigen::Matrix3Xd& dir
             context.embree.filter = keep_exits;
             rtcIntersect8(mask.data(), scene_.get(), &context.embree, &batch);
         }
-        const std::span<double> found = distance.subspan(static_cast<std::size_t>(first));
+        const std::span<double> found = distance.subspan(at(first));
         for (int i = 0; i < count; ++i) {
-            const auto k = static_cast<std::size_t>(i);
+            const auto k = at(i);
             const float exit = batch.ray.tfar[i];
             const bool inside =
                 has_hit(batch, static_cast<unsigned>(i)) && exit <= context.entry[k] + same_place;

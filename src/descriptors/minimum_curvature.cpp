@@ -38,7 +38,7 @@ double turn(const TriMesh& mesh, const FaceGeometry& geometry, const HalfEdge& x
 /// Each vertex takes half of the edges and a third of the faces around it.
 std::vector<CurvatureMeasure> vertex_measures(const TriMesh& mesh, const FaceGeometry& geometry,
                                               const std::vector<HalfEdge>& sides) {
-    std::vector<CurvatureMeasure> measure(static_cast<std::size_t>(mesh.vertex_count()));
+    std::vector<CurvatureMeasure> measure(at(mesh.vertex_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) {
             CurvatureMeasure& m = measure[at(mesh.faces(k, f))];

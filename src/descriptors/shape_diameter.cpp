@@ -107,7 +107,7 @@ void fill_from_neighbors(const DualGraph& graph, Eigen::VectorXd& thickness) {
 
 Eigen::VectorXd smoothed(const DualGraph& graph, const Eigen::VectorXd& values) {
     Eigen::VectorXd sum = values;
-    std::vector<int> count(static_cast<std::size_t>(graph.face_count), 1);
+    std::vector<int> count(at(graph.face_count), 1);
     for (const DualEdge& edge : graph.edges) {
         if (edge.is_virtual) continue;
         sum[edge.face_a] += values[edge.face_b];

@@ -28,14 +28,14 @@ std::vector<Vector2d> vessel_profile(const VesselWall& wall) {
     return profile;
 }
 
-/// An ear on the wall's side at +x turned by `turn`; it bites into the wall but not through it.
-std::vector<ChainSphere> ear(const VesselWall& wall, SeededStream& random, double turn) {
+/// An ear on the wall's side at +x turned by `azimuth`; it bites into the wall but not through it.
+std::vector<ChainSphere> ear(const VesselWall& wall, SeededStream& random, double azimuth) {
     const double radius = random.uniform(0.05, 0.075);
     const double high = random.uniform(0.68, 0.86);
     const double low = random.uniform(0.14, 0.34);
     const double reach = random.uniform(0.2, 0.36);
     const double squareness = random.uniform(0.45, 1.0);
-    const Vector2d heading = direction(turn);
+    const Vector2d heading = direction(azimuth);
     constexpr int steps = 14;
     std::vector<ChainSphere> path;
     for (int i = 0; i <= steps; ++i) {

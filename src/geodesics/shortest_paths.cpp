@@ -13,7 +13,8 @@ namespace coseg {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+/// The distance of a node that no path has reached.
+constexpr float unreached = std::numeric_limits<float>::infinity();
 
 std::span<const SurfaceArc> arcs_of(const SurfaceGraph& graph, int node) {
     const int begin = graph.offsets[at(node)];
@@ -113,7 +114,7 @@ std::vector<int> lower_distances(const SurfaceGraph& graph, std::span<const Path
 
 void path_distances(const SurfaceGraph& graph, std::span<const std::vector<PathSource>, path_lanes> sources,
                     std::span<const int> order, std::vector<PathLanes>& distance) {
-    distance.assign(at(graph.node_count()), PathLanes::Constant(infinity));
+    distance.assign(at(graph.node_count()), PathLanes::Constant(unreached));
     std::vector<unsigned char> is_pending(distance.size(), 0);
     for (int lane = 0; lane < path_lanes; ++lane) {
         for (const PathSource& source : sources[at(lane)]) {

@@ -93,8 +93,7 @@ FeatureMatrices::FeatureMatrices(const std::vector<Eigen::MatrixXd>& matrices)
 FeatureMatrices::FeatureMatrices(NodeRanks ranks, const std::vector<Index>& rows, Index columns)
     : columns_(columns) {
     for (const Index count : rows) offsets_.push_back(offsets_.back() + count);
-    values_ = std::make_shared<NodeSharedArray<double>>(std::move(ranks),
-                                                        static_cast<std::size_t>(dimension() * columns));
+    values_ = std::make_shared<NodeSharedArray<double>>(std::move(ranks), at(dimension() * columns));
 }
 
 const double* FeatureMatrices::data() const noexcept { return values_ ? values_->data() : nullptr; }

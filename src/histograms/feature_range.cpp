@@ -17,9 +17,7 @@ namespace {
 constexpr double low_percentile = 0.01;
 constexpr double high_percentile = 0.99;
 
-std::span<const double> span_of(const Eigen::VectorXd& values) {
-    return {values.data(), static_cast<std::size_t>(values.size())};
-}
+std::span<const double> span_of(const Eigen::VectorXd& values) { return {values.data(), at(values.size())}; }
 
 void check_feature(int bins, std::span<const FeatureOfMesh> local) {
     if (bins < 1)
@@ -40,7 +38,7 @@ void check_feature(int bins, std::span<const FeatureOfMesh> local) {
 }
 
 std::vector<double> uniform_edges(double low, double high, int bins) {
-    std::vector<double> edges(static_cast<std::size_t>(bins) + 1);
+    std::vector<double> edges(at(bins) + 1);
     for (int b = 0; b <= bins; ++b) edges[at(b)] = low + (high - low) * b / bins;
     edges.back() = high;
     return edges;

@@ -61,7 +61,7 @@ void scale_columns(Eigen::MatrixXd& histogram, HistogramScaling scaling) {
 std::vector<int> bin_of_face(const Eigen::VectorXd& values, const FeatureRange& range) {
     const auto first_inner = range.edges.begin() + 1;
     const auto last_inner = range.edges.end() - 1;
-    std::vector<int> bin(static_cast<std::size_t>(values.size()));
+    std::vector<int> bin(at(values.size()));
     for (std::size_t f = 0; f < bin.size(); ++f) {
         const double value = values[static_cast<Eigen::Index>(f)];
         if (!std::isfinite(value)) {

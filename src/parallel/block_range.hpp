@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
+
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -18,6 +21,9 @@ struct BlockRange {
     [[nodiscard]] constexpr std::int64_t size() const noexcept { return end - begin; }
     [[nodiscard]] constexpr bool contains(std::int64_t i) const noexcept { return begin <= i && i < end; }
     friend constexpr bool operator==(const BlockRange&, const BlockRange&) = default;
+    static constexpr auto fields() {
+        return std::tuple(field("begin", &BlockRange::begin), field("end", &BlockRange::end));
+    }
 };
 
 /// The items that `rank` of `ranks` owns. n >= 0, ranks >= 1, tile >= 1.

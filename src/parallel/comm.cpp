@@ -131,45 +131,40 @@ std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int6
     return all_gather_of<std::int64_t>(comm, local, MPI_INT64_T, longest);
 }
 
-namespace {
+std::vector<std::byte> all_gather_bytes(const Comm& comm, std::span<const std::byte> local,
+                                        std::int64_t longest) {
+    return all_gather_of<std::byte>(comm, local, MPI_BYTE, longest);
+}
 
-/// One buffer for several texts, each ended by a zero byte, which no path or sentence contains.
-std::string joined(const std::vector<std::string>& texts) {
-    std::string buffer;
-    for (const std::string& text : texts) {
-        buffer += text;
-        buffer += '\0';
+std::vector<std::byte> gather_bytes(const Comm& comm, std::span<const std::byte> local,
+                                    std::int64_t longest) {
+    const std::vector<std::int64_t> offsets = gathered_offsets(comm, local.size());
+    std::vector<std::byte> all(comm.is_root() ? at(offsets.back()) : 0);
+    if (comm.is_root()) std::copy(local.begin(), local.end(), all.begin());
+    for (int rank = 1; rank < comm.size(); ++rank) {
+        const auto pass_on = [&](std::int64_t first, int count) {
+            if (comm.is_root()) {
+                MPI_Recv(all.data() + offsets[at(rank)] + first, count, MPI_BYTE, rank, 0, comm.raw(),
+                         MPI_STATUS_IGNORE);
+            } else if (comm.rank() == rank) {
+                MPI_Send(local.data() + first, count, MPI_BYTE, 0, 0, comm.raw());
+            }
+        };
+        in_messages(offsets[at(rank) + 1] - offsets[at(rank)], pass_on, longest);
     }
-    return buffer;
+    return all;
 }
 
-std::vector<std::string> parted(const std::string& buffer) {
-    std::vector<std::string> texts;
-    for (std::size_t begin = 0; begin < buffer.size();) {
-        const std::size_t end = buffer.find('\0', begin);
-        texts.push_back(buffer.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return texts;
-}
-
-}  // namespace
-
-std::vector<std::string> all_gather_texts(const Comm& comm, const std::vector<std::string>& local) {
-    const std::string mine = joined(local);
-    const std::vector<char> all = all_gather_of<char>(comm, std::span<const char>(mine), MPI_CHAR);
-    return parted(std::string(all.begin(), all.end()));
-}
-
-void broadcast_texts(const Comm& comm, std::vector<std::string>& texts) {
-    std::string buffer = comm.is_root() ? joined(texts) : std::string();
-    std::int64_t size = static_cast<std::int64_t>(buffer.size());
+void broadcast_bytes(const Comm& comm, std::vector<std::byte>& bytes, std::int64_t longest) {
+    std::int64_t size = std::ssize(bytes);
     MPI_Bcast(&size, 1, MPI_INT64_T, 0, comm.raw());
-    buffer.resize(at(size));
-    in_messages(size, [&](std::int64_t first, int count) {
-        MPI_Bcast(buffer.data() + first, count, MPI_CHAR, 0, comm.raw());
-    });
-    texts = parted(buffer);
+    bytes.resize(at(size));
+    in_messages(
+        size,
+        [&](std::int64_t first, int count) {
+            MPI_Bcast(bytes.data() + first, count, MPI_BYTE, 0, comm.raw());
+        },
+        longest);
 }
 
 bool any_rank(const Comm& comm, bool local) {

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -63,11 +64,14 @@ std::vector<int> all_gather(const Comm& comm, std::span<const int> local);
 std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local,
                                      std::int64_t longest = longest_message);
 
-/// Texts of all ranks, in the order of ranks, on all ranks. Collective.
-std::vector<std::string> all_gather_texts(const Comm& comm, const std::vector<std::string>& local);
-
-/// The root's texts on all ranks. Collective.
-void broadcast_texts(const Comm& comm, std::vector<std::string>& texts);
+/// The same for bytes.
+std::vector<std::byte> all_gather_bytes(const Comm& comm, std::span<const std::byte> local,
+                                        std::int64_t longest = longest_message);
+/// The same on the root alone; elsewhere nothing. Collective.
+std::vector<std::byte> gather_bytes(const Comm& comm, std::span<const std::byte> local,
+                                    std::int64_t longest = longest_message);
+/// The root's bytes on all ranks. Collective.
+void broadcast_bytes(const Comm& comm, std::vector<std::byte>& bytes, std::int64_t longest = longest_message);
 
 /// Whether it is true on any rank, and whether on every rank. Collective.
 bool any_rank(const Comm& comm, bool local);

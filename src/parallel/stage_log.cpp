@@ -10,7 +10,7 @@ namespace coseg {
 namespace {
 
 /// As JSON's strings have it.
-std::string quoted(const std::string& text) {
+std::string json_text(const std::string& text) {
     std::string safe = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') safe += '\\';
@@ -58,7 +58,7 @@ void StageLog::print_progress(std::int64_t done, std::int64_t total) {
         std::fprintf(stderr,
                      "{\"event\": \"progress\", \"stage\": %s, \"done\": %lld, \"total\": %lld, "
                      "\"seconds_left\": %.0f}\n",
-                     quoted(stage_).c_str(), static_cast<long long>(done), static_cast<long long>(total),
+                     json_text(stage_).c_str(), static_cast<long long>(done), static_cast<long long>(total),
                      left);
     } else {
         std::fprintf(stderr, "%-14s %7.2f s  %lld of %lld, about %.0f s left\n", stage_.c_str(), so_far,
@@ -142,11 +142,11 @@ void StageLog::print(const StageTimes& times, const std::string& summary) const 
     if (form_ == LogForm::json) {
         std::string steps;
         for (const StepTime& step : times.steps)
-            steps += (steps.empty() ? "" : ", ") + quoted(step.step) + ": " + std::to_string(step.seconds);
+            steps += (steps.empty() ? "" : ", ") + json_text(step.step) + ": " + std::to_string(step.seconds);
         std::fprintf(
             stderr,
             "{\"event\": \"stage\", \"stage\": %s, \"seconds\": %.3f, \"summary\": %s, \"steps\": {%s}}\n",
-            quoted(times.stage).c_str(), times.seconds_wall, quoted(summary).c_str(), steps.c_str());
+            json_text(times.stage).c_str(), times.seconds_wall, json_text(summary).c_str(), steps.c_str());
     } else {
         std::fprintf(stderr, "%-14s %7.2f s  %s\n", times.stage.c_str(), times.seconds_wall, summary.c_str());
         for (const StepTime& step : times.steps) {
@@ -160,7 +160,7 @@ void StageLog::print(const StageTimes& times, const std::string& summary) const 
 void StageLog::warn(const std::string& sentence) const {
     if (!comm_.is_root()) return;
     if (form_ == LogForm::json)
-        std::fprintf(stderr, "{\"event\": \"warning\", \"sentence\": %s}\n", quoted(sentence).c_str());
+        std::fprintf(stderr, "{\"event\": \"warning\", \"sentence\": %s}\n", json_text(sentence).c_str());
     else
         std::fprintf(stderr, "%scoseg: warning: %s\n", bar_shown_ ? "\r\033[K" : "", sentence.c_str());
 }

@@ -7,27 +7,12 @@
 
 #include "src/parallel/comm.hpp"
 #include "src/parallel/trace_event.hpp"
+#include "src/records/stage_times.hpp"
 
 namespace coseg {
 
 enum class Verbosity { quiet, normal, verbose };
 enum class LogForm { text, json };
-
-struct StepTime {
-    std::string step;
-    double seconds = 0.0;      ///< sum over ranks
-    double seconds_min = 0.0;  ///< of the rank that spent least on it
-    double seconds_max = 0.0;
-};
-
-struct StageTimes {
-    std::string stage;
-    double seconds_min = 0.0;  ///< the shortest time any rank worked on the stage, waiting left out
-    double seconds_mean = 0.0;
-    double seconds_max = 0.0;
-    double seconds_wall = 0.0;    ///< from the first line of the stage to its agreed end, waiting included
-    std::vector<StepTime> steps;  ///< where the stage says so: what its work was spent on
-};
 
 /// Lines go to standard error, so that standard output holds results only.
 class StageLog {

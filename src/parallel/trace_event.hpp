@@ -2,7 +2,10 @@
 // A span of a rank's time, as a trace viewer draws it.
 
 #include <string>
+#include <tuple>
 #include <vector>
+
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -11,6 +14,10 @@ struct TraceEvent {
     std::string category;  ///< stage, mesh, step or wait
     double start = 0.0;    ///< seconds since the ranks started together
     double seconds = 0.0;  ///< >= 0
+    static constexpr auto fields() {
+        return std::tuple(field("name", &TraceEvent::name), field("category", &TraceEvent::category),
+                          field("start", &TraceEvent::start), field("seconds", &TraceEvent::seconds));
+    }
 };
 
 /// The spans of one rank, in the order in which they ended.

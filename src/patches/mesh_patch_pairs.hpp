@@ -2,10 +2,12 @@
 // Finds which patches of one mesh touch (inside one over-segmentation) and which overlap (between two).
 
 #include <Eigen/Core>
+#include <tuple>
 #include <vector>
 
 #include "src/mesh/dual_graph.hpp"
 #include "src/mesh/face_geometry.hpp"
+#include "src/records/fields.hpp"
 
 namespace coseg {
 
@@ -14,12 +16,22 @@ struct PatchNeighbors {
     int patch_b = -1;
     double boundary_length = 0.0;  ///< > 0 unless every shared edge has no length; unit of the mesh
     double concavity = 0.0;        ///< mc of the paper, in [0, 1]
+    static constexpr auto fields() {
+        return std::tuple(field("patch_a", &PatchNeighbors::patch_a),
+                          field("patch_b", &PatchNeighbors::patch_b),
+                          field("boundary_length", &PatchNeighbors::boundary_length),
+                          field("concavity", &PatchNeighbors::concavity));
+    }
 };
 
 struct PatchOverlap {
     int patch_a = -1;                      ///< of the first over-segmentation
     int patch_b = -1;                      ///< of the second
     double intersection_over_union = 0.0;  ///< of areas, in (0, 1]
+    static constexpr auto fields() {
+        return std::tuple(field("patch_a", &PatchOverlap::patch_a), field("patch_b", &PatchOverlap::patch_b),
+                          field("intersection_over_union", &PatchOverlap::intersection_over_union));
+    }
 };
 
 /// The area of each patch 0 .. count-1; 0 for a patch without faces.

@@ -21,7 +21,7 @@ END
 "$COSEG" run "${common[@]}" --ranks 1 --out "$work/one" "$work/set"
 expects 1 "$work/one"
 "$COSEG" run "${common[@]}" --out "$work/all" "$work/set"
-expects "$(env -u OMP_NUM_THREADS nproc)" "$work/all"
+expects "$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)" "$work/all"
 "$COSEG" run "${common[@]}" --ranks=3 --out "$work/three" "$work/set" -- -eps_ncv 40
 expects 3 "$work/three"
 COSEG_RANKS=2 "$COSEG" run "${common[@]}" --out "$work/two" "$work/set"

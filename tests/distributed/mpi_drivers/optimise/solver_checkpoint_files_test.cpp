@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "src/parallel/record_exchange.hpp"
 #include "tests/support/subspace_problems.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -19,7 +20,7 @@ class SharedFolder {
     explicit SharedFolder(const Comm& comm) : comm_(comm) {
         std::vector<std::string> path;
         if (comm.is_root()) path = {own_.path("state")};
-        broadcast_texts(comm, path);
+        broadcast(comm, path);
         path_ = path.front();
     }
     ~SharedFolder() { MPI_Barrier(comm_.raw()); }  // before the folder goes with rank 0's

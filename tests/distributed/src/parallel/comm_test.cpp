@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 namespace coseg {
 namespace {
 
@@ -40,6 +42,17 @@ TEST(AllGather, GivesTheSameInMessagesOfAnyLength) {
     const std::vector<std::int64_t> whole = all_gather(comm, local);
     EXPECT_EQ(std::ssize(whole), 5 * comm.size() + 3 * comm.size() * (comm.size() - 1) / 2);
     for (const std::int64_t longest : {1, 3, 5, 1000}) EXPECT_EQ(all_gather(comm, local, longest), whole);
+    const std::span<const std::byte> bytes = std::as_bytes(local);
+    const std::vector<std::byte> all_bytes = all_gather_bytes(comm, bytes);
+    ASSERT_EQ(all_bytes.size(), whole.size() * sizeof(std::int64_t));
+    EXPECT_EQ(std::memcmp(all_bytes.data(), whole.data(), all_bytes.size()), 0);
+    for (const std::int64_t longest : {7, 64, 100000}) {
+        EXPECT_EQ(all_gather_bytes(comm, bytes, longest), all_bytes);
+        EXPECT_EQ(gather_bytes(comm, bytes, longest), comm.is_root() ? all_bytes : std::vector<std::byte>{});
+        std::vector<std::byte> told = comm.is_root() ? all_bytes : std::vector<std::byte>{};
+        broadcast_bytes(comm, told, longest);
+        EXPECT_EQ(told, all_bytes);
+    }
 }
 
 TEST(AnyRank, HearsOneRankAmongAll) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "src/parallel/record_exchange.hpp"
+
 namespace coseg {
 namespace {
 
@@ -29,11 +31,11 @@ TEST(Texts, GatherAndBroadcast) {
     std::vector<std::string> mine;
     for (int k = 0; k < comm.rank(); ++k)
         mine.push_back("rank " + std::to_string(comm.rank()) + (k % 2 != 0 ? "" : " text"));
-    const std::vector<std::string> all = all_gather_texts(comm, mine);
+    const std::vector<std::string> all = all_gather_records(comm, mine);
     EXPECT_EQ(all.size(), static_cast<std::size_t>(comm.size() * (comm.size() - 1) / 2));
     std::vector<std::string> texts;
     if (comm.is_root()) texts = {"a", "", "c d"};
-    broadcast_texts(comm, texts);
+    broadcast(comm, texts);
     EXPECT_EQ(texts, (std::vector<std::string>{"a", "", "c d"}));
 }
 

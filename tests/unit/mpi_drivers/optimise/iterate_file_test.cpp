@@ -36,7 +36,7 @@ SolveIterate made_iterate(std::int64_t begin, std::int64_t end) {
     iterate.finished = true;
     iterate.objective = 8.5;
     iterate.residual = 1e-7;
-    iterate.reason = 2;
+    iterate.reason = StopReason::iteration_limit;
     return iterate;
 }
 

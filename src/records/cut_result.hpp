@@ -1,0 +1,30 @@
+#pragma once
+// What comes of cutting the patches of a collection into parts.
+
+#include <tuple>
+#include <vector>
+
+#include "src/records/position_frame.hpp"
+#include "src/records/start_outcome.hpp"
+
+namespace coseg {
+
+struct CutResult {
+    std::vector<int> part_of_patch;  ///< 0 .. parts - 1, by decreasing mean area share; the same on all ranks
+    std::vector<double> part_share;  ///< mean over meshes of the part's share of area
+    std::vector<int> meshes_with_part;  ///< in how many meshes the part occurs; few is a warning sign
+    std::vector<StartOutcome> starts;   ///< in the order in which they were asked for
+    std::vector<double>
+        eigenvalues;      ///< of the chosen start's graph, descending, one for each of its clusters
+    PositionFrame frame;  ///< of the base; without correlation where no start is placed
+    int chosen = 0;       ///< the start taken: best_partition of those with the most parts
+    static constexpr auto fields() {
+        return std::tuple(field("part_of_patch", &CutResult::part_of_patch, Storage::compressed),
+                          field("part_share", &CutResult::part_share),
+                          field("meshes_with_part", &CutResult::meshes_with_part),
+                          field("starts", &CutResult::starts), field("eigenvalues", &CutResult::eigenvalues),
+                          field("positions", &CutResult::frame), field("chosen", &CutResult::chosen));
+    }
+};
+
+}  // namespace coseg

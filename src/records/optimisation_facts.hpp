@@ -1,0 +1,31 @@
+#pragma once
+// Which problem a run has solved, as its report tells.
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+
+#include "src/records/fields.hpp"
+
+namespace coseg {
+
+struct OptimisationFacts {
+    std::string variant;
+    std::string scope;  ///< what it came to: one mesh alone is always of row scope, ssc and ssqp too
+    int links = 0;      ///< meshes in which a patch may have matches, at most
+    int subsets = 1;    ///< in which the collection was solved, see mpi_drivers/partition/subset_stage.hpp
+    int common_meshes = 0;  ///< meshes in every subset, if there are several
+    /// The mean share of the common meshes' area on which a subset agrees with the first.
+    double subset_agreement = 1.0;
+    std::int64_t allowed_pairs = 0;  ///< that the certificate covers
+    static constexpr auto fields() {
+        return std::tuple(
+            field("variant", &OptimisationFacts::variant), field("scope", &OptimisationFacts::scope),
+            field("links", &OptimisationFacts::links), field("subsets", &OptimisationFacts::subsets),
+            field("common_meshes", &OptimisationFacts::common_meshes),
+            field("subset_agreement", &OptimisationFacts::subset_agreement),
+            field("allowed_pairs", &OptimisationFacts::allowed_pairs));
+    }
+};
+
+}  // namespace coseg

@@ -1,0 +1,77 @@
+#include "io/files/record_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/every_kind.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace coseg {
+namespace {
+
+using test::changed_records;
+using test::EveryKind;
+using test::filled_record;
+using test::Nested;
+using test::TemporaryFolder;
+
+std::string written(const TemporaryFolder& folder, const std::string& path, const EveryKind& record) {
+    const std::string name = folder.path() + "/record.h5";
+    Hdf5Writer file(name, "coseg test", 1);
+    write_record(file, path, record);
+    file.commit();
+    return name;
+}
+
+EveryKind read_back(const std::string& name, const std::string& path) {
+    const Hdf5Reader file(name, "coseg test", 1);
+    EveryKind record;
+    read_record(file, path, record);
+    return record;
+}
+
+TEST(RecordFile, ARecordWithEveryKindOfFieldComesBack) {
+    const TemporaryFolder folder;
+    for (const char* path : {"", "inner/record"}) {
+        EXPECT_EQ(read_back(written(folder, path, filled_record(1)), path), filled_record(1));
+        EXPECT_EQ(read_back(written(folder, path, EveryKind{}), path), EveryKind{});
+    }
+}
+
+TEST(RecordFile, RowsOfRecordsComeBack) {
+    const TemporaryFolder folder;
+    for (const std::vector<EveryKind>& rows :
+         {std::vector<EveryKind>{filled_record(1), EveryKind{}, filled_record(2)},
+          std::vector<EveryKind>{}}) {
+        const std::string name = folder.path() + "/rows.h5";
+        Hdf5Writer writer(name, "coseg test", 1);
+        write_column(writer, "rows", rows);
+        writer.commit();
+        EXPECT_EQ(read_column<EveryKind>(Hdf5Reader(name, "coseg test", 1), "rows"), rows);
+    }
+}
+
+TEST(RecordFile, EveryFieldIsCarried) {
+    const TemporaryFolder folder;
+    for (const EveryKind& changed : changed_records())
+        EXPECT_EQ(read_back(written(folder, "", changed), ""), changed);
+}
+
+TEST(RecordFile, AFileWithoutTheFieldsOfTheRecordIsRefused) {
+    const TemporaryFolder folder;
+    const std::string name = written(folder, "", filled_record(1));
+    EXPECT_THROW(read_back(name, "elsewhere"), Error);
+}
+
+TEST(RecordFile, ColumnsOfDifferentLengthAreRefused) {
+    const TemporaryFolder folder;
+    const std::string name = folder.path() + "/torn.h5";
+    Hdf5Writer writer(name, "coseg test", 1);
+    writer.write_texts("rows/name", {"a", "b"});
+    writer.write("rows/values/count", std::vector<std::int64_t>{1});
+    writer.write("rows/values/value", std::vector<double>{1.0});
+    writer.commit();
+    EXPECT_THROW(read_column<Nested>(Hdf5Reader(name, "coseg test", 1), "rows"), Error);
+}
+
+}  // namespace
+}  // namespace coseg
