@@ -92,7 +92,7 @@ View view_of_grid(const Comm& world, const std::vector<LabelledMesh>& shapes) {
     for (const LabelledMesh& shape : shapes)
         outlines.push_back(
             {shape.number, "", picture_mesh(shape.mesh, std::vector<Color>(shape.part.size()))});
-    return agree_on_view(world, outlines, {"front", "auto"});
+    return agree_on_view(world, outlines, {.view = "front"});
 }
 
 /// The shapes of this rank in a file each, and again in the grid if the format has a file that opens many.

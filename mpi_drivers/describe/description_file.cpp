@@ -39,7 +39,7 @@ void write_options(Hdf5Writer& file, const DescriptionOptions& options) {
         options;
     static_cast<void>(descriptors);  // the file shows by its datasets which they are
     file.attribute("seed", static_cast<std::int64_t>(seed));
-    file.attribute("remesh", remesh);
+    file.attribute("remesh", to_string(remesh));
     file.attribute("patches", std::int64_t{patches});
     file.attribute("oversegmentations", std::int64_t{oversegmentations});
     file.attribute("cut-noise", cut_noise);
@@ -205,7 +205,7 @@ ContentHash description_key(std::string_view bytes, const std::string& name, con
     hasher.add(std::filesystem::path(path).extension().string());
     hasher.add(name);
     hasher.add(seed);
-    hasher.add(remesh);
+    hasher.add(to_string(remesh));
     hasher.add(patches);
     hasher.add(oversegmentations);
     hasher.add(cut_noise);

@@ -38,11 +38,8 @@ int agreed_dimensions(const Comm& comm, const Collection& collection,
     return of_mesh.front();
 }
 
-}  // namespace
-
-void add_face_features(const Comm& comm, DescribedCollection& described, const RunOptions& options) {
-    if (!(options.face_feature_weight > 0.0)) return;
-    const Collection& collection = described.collection;
+void add_face_features(const Comm& comm, const Collection& collection, const FeatureOptions& options,
+                       CollectionDescriptors& descriptors) {
     std::vector<Eigen::MatrixXf> features;
     agree(comm, [&] {
         for (const MeshDescription& mesh : collection.local) {
@@ -52,7 +49,6 @@ void add_face_features(const Comm& comm, DescribedCollection& described, const R
         }
     });
     const int dimensions = agreed_dimensions(comm, collection, features);
-    CollectionDescriptors& descriptors = described.descriptors;
     const auto row = static_cast<int>(descriptors.table.size());
     descriptors.table.push_back(face_features_descriptor(dimensions, options.face_feature_weight));
     for (std::size_t k = 0; k < features.size(); ++k) {
@@ -61,6 +57,17 @@ void add_face_features(const Comm& comm, DescribedCollection& described, const R
             values = Eigen::VectorXd(std::get<Eigen::MatrixXf>(values).row(0).transpose().cast<double>());
         descriptors.of_mesh[k].push_back({row, std::move(values)});
     }
+}
+
+}  // namespace
+
+CollectionDescriptors weighted_descriptors(const Comm& comm, const Collection& collection,
+                                           CollectionDescriptors descriptors, const FeatureOptions& options) {
+    for (std::size_t row = 0; row < descriptors.table.size(); ++row)
+        descriptors.table[row].weight = options.weights.at(row);
+    if (!options.face_features.empty() && options.face_feature_weight > 0.0)
+        add_face_features(comm, collection, options, descriptors);
+    return descriptors;
 }
 
 }  // namespace coseg

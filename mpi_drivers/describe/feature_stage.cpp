@@ -23,14 +23,10 @@ namespace {
 
 using BinsOfMeshes = std::vector<std::vector<int>>;  // per local mesh: bin of each working face
 
-HistogramScaling scaling_of(const std::string& name) {
-    if (name == "counts") return HistogramScaling::counts;
-    return name == "unit-sum" ? HistogramScaling::unit_sum : HistogramScaling::square_root;
-}
-
 /// Of a descriptor of numbers.
-RangeKind range_kind(BinKind bins, const RunOptions& options) {
-    if (options.ranges == "global" || bins == BinKind::global_percentile) return RangeKind::global_percentile;
+RangeKind range_kind(BinKind bins, const FeatureOptions& options) {
+    if (options.ranges == BinRanges::global || bins == BinKind::global_percentile)
+        return RangeKind::global_percentile;
     return bins == BinKind::equal_mass ? RangeKind::equal_mass : RangeKind::per_mesh_percentile;
 }
 
@@ -56,7 +52,7 @@ Eigen::VectorXd face_weights(const MeshDescription& mesh, HistogramScaling scali
 struct FeatureInput {
     const Collection& collection;
     const Descriptor& descriptor;
-    const RunOptions& options;
+    const FeatureOptions& options;
     const FeatureBins* given;  ///< null: they are to be made
 };
 
@@ -82,8 +78,8 @@ BinsOfMeshes number_bins(const Comm& comm, const FeatureInput& input, std::vecto
 }
 
 Eigen::MatrixXd mesh_histograms(const MeshDescription& mesh, const std::vector<int>& bins, int patches,
-                                const RunOptions& options) {
-    const HistogramScaling scaling = scaling_of(options.histogram);
+                                const FeatureOptions& options) {
+    const HistogramScaling scaling = options.histogram;
     const Eigen::VectorXd weights = face_weights(mesh, scaling);
     Eigen::MatrixXd columns(options.bins, patches);
     Eigen::Index next = 0;
@@ -97,15 +93,15 @@ Eigen::MatrixXd mesh_histograms(const MeshDescription& mesh, const std::vector<i
 }
 
 /// The rows from `first` on, as many as there are bins, become the histograms of this rank's patches, divided and weighted.
-void fill_histograms(const Comm& comm, const Collection& collection, const BinsOfMeshes& bins,
-                     const RunOptions& options, double divisor, double weight, Eigen::Index first,
-                     FeatureMatrices::Block rows) {
+void fill_histograms(const Comm& comm, const FeatureInput& input, const BinsOfMeshes& bins, double divisor,
+                     Eigen::Index first, FeatureMatrices::Block rows) {
+    const Collection& collection = input.collection;
     agree(comm, [&] {
         for (std::size_t k = 0; k < collection.local.size(); ++k) {
             const MeshDescription& mesh = collection.local[k];
             const int count = collection.numbering.count(mesh.mesh);
-            rows.block(first, collection.numbering.first(mesh.mesh, 0), options.bins, count) =
-                weight * (mesh_histograms(mesh, bins[k], count, options) / divisor);
+            rows.block(first, collection.numbering.first(mesh.mesh, 0), input.options.bins, count) =
+                input.descriptor.weight * (mesh_histograms(mesh, bins[k], count, input.options) / divisor);
         }
     });
 }
@@ -135,12 +131,12 @@ BinsOfMeshes nearest_words(const Comm& comm, const std::vector<ShapeWordInput>& 
 std::vector<Eigen::MatrixXf> fill_word_histograms(const Comm& comm, const FeatureInput& input,
                                                   const std::vector<FaceValues>& values,
                                                   const FeatureMatrices::Block& rows) {
-    const RunOptions& options = input.options;
+    const FeatureOptions& options = input.options;
     std::vector<ShapeWordInput> vectors;
     for (std::size_t k = 0; k < values.size(); ++k)
         vectors.push_back({input.collection.local[k].key, &std::get<Eigen::MatrixXf>(values[k])});
     const auto sets = static_cast<double>(options.word_sets);
-    const bool is_root = scaling_of(options.histogram) == HistogramScaling::square_root;
+    const bool is_root = options.histogram == HistogramScaling::square_root;
     std::vector<Eigen::MatrixXf> words;
     for (int set = 0; set < options.word_sets; ++set) {
         const std::uint64_t seed =
@@ -154,8 +150,8 @@ std::vector<Eigen::MatrixXf> fill_word_histograms(const Comm& comm, const Featur
             bins = shape_words(comm, vectors, options.bins, seed, &centres);
         }
         words.push_back(std::move(centres));
-        fill_histograms(comm, input.collection, bins, options, is_root ? std::sqrt(sets) : sets,
-                        input.descriptor.weight, static_cast<Eigen::Index>(set) * options.bins, rows);
+        fill_histograms(comm, input, bins, is_root ? std::sqrt(sets) : sets,
+                        static_cast<Eigen::Index>(set) * options.bins, rows);
     }
     return words;
 }
@@ -204,17 +200,26 @@ FeatureBins fill_feature(const Comm& comm, const FeatureInput& input, std::vecto
     features.ranges.push_back({input.descriptor.name,
                                name_of(range_kind(input.descriptor.bins, input.options)), range.edges.front(),
                                range.edges.back()});
-    fill_histograms(comm, input.collection, bins, input.options, 1.0, input.descriptor.weight, 0,
-                    features.histograms.fill(k));
+    fill_histograms(comm, input, bins, 1.0, 0, features.histograms.fill(k));
     return range;
+}
+
+/// Where shared memory does not suffice.
+void warn_of_copies(const PatchFeatures& features, const StageLog& log) {
+    if (!features.histograms.fell_back()) return;
+    log.warn(
+        "shared memory (/dev/shm) has no room for the features, so every rank holds a copy of its own; "
+        "the results are the same");
 }
 
 }  // namespace
 
 PatchFeatures patch_features(const Comm& comm, const Collection& collection,
-                             CollectionDescriptors descriptors, const RunOptions& options,
-                             const std::vector<FeatureBins>* given) {
+                             CollectionDescriptors descriptors, const FeatureOptions& options,
+                             const std::vector<FeatureBins>* given, StageLog& log) {
+    log.begin("features");
     PatchFeatures features;
+    features.scaling = options.histogram;
     std::vector<int> of_row;  // the row of each feature
     std::vector<Eigen::Index> heights;
     for (std::size_t row = 0; row < descriptors.table.size(); ++row) {
@@ -236,14 +241,11 @@ PatchFeatures patch_features(const Comm& comm, const Collection& collection,
     gather_patches(comm, collection, features);
     descriptors.of_mesh.clear();
     malloc_trim(0);  // what the allocator holds in small pieces goes back: the next stages ask for large ones
+    log.end(std::to_string(features.histograms.size()) +
+            (features.histograms.size() == 1 ? " feature of " : " features of ") +
+            std::to_string(options.bins) + (given != nullptr ? " bins, those of the run" : " bins"));
+    warn_of_copies(features, log);
     return features;
-}
-
-void warn_of_copies(const PatchFeatures& features, const StageLog& log) {
-    if (!features.histograms.fell_back()) return;
-    log.warn(
-        "shared memory (/dev/shm) has no room for the features, so every rank holds a copy of its own; "
-        "the results are the same");
 }
 
 }  // namespace coseg

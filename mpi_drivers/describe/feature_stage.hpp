@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mpi_drivers/describe/mesh_stage.hpp"
-#include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/options/stage_options.hpp"
 #include "src/descriptors/descriptor_table.hpp"
 #include "src/histograms/feature_matrices.hpp"
 #include "src/histograms/feature_range.hpp"
@@ -24,6 +24,7 @@ using FeatureBins = std::variant<FeatureRange, std::vector<Eigen::MatrixXf>>;
 struct PatchFeatures {
     /// Features with positive weight: bins x N each (words: bins word_sets x N), times the weight; once a node.
     FeatureMatrices histograms;
+    HistogramScaling scaling = HistogramScaling::square_root;
     std::vector<Descriptor> descriptors;  ///< what each of them describes, with the weight of the run
     std::vector<FeatureBins> bins;        ///< of each of them
     std::vector<double> patch_area;       ///< N, each mesh's over-segmentation sums to 1
@@ -33,12 +34,10 @@ struct PatchFeatures {
 
 /// descriptors: each is freed as soon as its feature is made; rows without a weight are left out.
 /// given: the bins of an earlier collection, one for each feature, which are kept; null: they are made from this one.
+/// The log has the stage "features", and a warning where every rank has features of its own, for want of shared memory.
 /// Collective; the same bits on every rank and on any number of ranks.
 PatchFeatures patch_features(const Comm& comm, const Collection& collection,
-                             CollectionDescriptors descriptors, const RunOptions& options,
-                             const std::vector<FeatureBins>* given = nullptr);
-
-/// Says so where every rank has features of its own, for want of shared memory.
-void warn_of_copies(const PatchFeatures& features, const StageLog& log);
+                             CollectionDescriptors descriptors, const FeatureOptions& options,
+                             const std::vector<FeatureBins>* given, StageLog& log);
 
 }  // namespace coseg

@@ -85,8 +85,8 @@ TriMesh working_mesh(MeshDescription& description, const std::string& path,
     description.map = std::move(repaired.map);
     description.overlong_area = overlong_area_share(repaired.mesh, options.patches);
     const bool unsuitable = description.overlong_area > most_overlong_area;
-    if (options.remesh == "always") remesh(repaired.mesh, description, path, options.patches);
-    if (options.remesh == "auto" && unsuitable)
+    if (options.remesh == RemeshMode::always) remesh(repaired.mesh, description, path, options.patches);
+    if (options.remesh == RemeshMode::automatic && unsuitable)
         remesh_if_possible(repaired.mesh, description, path, options.patches);
     refine_if_coarse(repaired.mesh, description, path, options.patches);
     scale_to_unit_area(repaired.mesh);
@@ -140,22 +140,6 @@ TriMesh describe_surface(DescribedMesh& described, int number, const std::string
 }
 
 }  // namespace
-
-DescriptionOptions description_options(const RunOptions& options) {
-    std::vector<int> descriptors;
-    const std::vector<Descriptor>& table = descriptor_table();
-    for (std::size_t row = 0; row < table.size(); ++row) {
-        if (table[row].weight > 0.0 || options.feature_weights.at(row) > 0.0)
-            descriptors.push_back(static_cast<int>(row));
-    }
-    return {.seed = options.seed,
-            .remesh = options.remesh,
-            .patches = options.patches,
-            .oversegmentations = options.oversegmentations,
-            .cut_noise = options.cut_noise,
-            .geodesic_samples = options.geodesic_samples,
-            .descriptors = std::move(descriptors)};
-}
 
 std::vector<std::string> describe_steps(const DescriptionOptions& options) {
     std::vector<std::string> steps = {"read", "repair", "dual_graph"};

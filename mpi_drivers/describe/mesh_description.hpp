@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/options/stage_options.hpp"
 #include "src/descriptors/descriptor_table.hpp"
 #include "src/mesh/dual_graph.hpp"
 #include "src/mesh/face_geometry.hpp"
@@ -19,22 +19,6 @@
 #include "src/repair/mesh_repair.hpp"
 
 namespace coseg {
-
-/// The options that a description depends on, and no others: what describe_mesh uses must stand here, because the
-/// descriptions in a state folder are found by it (description_file.hpp).
-struct DescriptionOptions {
-    std::uint64_t seed = 1;
-    std::string remesh = "auto";
-    int patches = 50;
-    int oversegmentations = 3;
-    double cut_noise = 0.3;
-    int geodesic_samples = 300;
-    std::vector<int> descriptors;  ///< rows of descriptor_table(), ascending
-};
-
-/// All descriptors that count by default are computed whatever their weights, so that a state folder serves other weights
-/// too; others where they have a weight.
-DescriptionOptions description_options(const RunOptions& options);
 
 /// What the time of a description is spent on, in the order of the work.
 std::vector<std::string> describe_steps(const DescriptionOptions& options);

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "mpi_drivers/describe/face_features.hpp"
+#include "mpi_drivers/describe/collection_log.hpp"
 #include "mpi_drivers/describe/kept_description.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -95,8 +95,8 @@ void log_steps(const Attempt& attempt, const DescriptionOptions& options, StageL
 }
 
 Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& entries,
-                              const RunOptions& options, const RunState* state, Keep keep, StageLog& log) {
-    const DescriptionOptions description = description_options(options);
+                              const DescriptionOptions& options, const RunState* state, Keep keep,
+                              StageLog& log) {
     const StateFolder* folder = state != nullptr ? &state->folder() : nullptr;
     const std::vector<int> order = schedule(entries);
     const auto total = static_cast<std::int64_t>(entries.size());
@@ -107,14 +107,14 @@ Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& en
         const int number = order[at(k)];
         const MeshEntry& entry = entries[at(number)];
         const StageLog::Clock::time_point start = StageLog::Clock::now();
-        const bool goes_on = attempt_one(attempt, number, entry, description, folder);
+        const bool goes_on = attempt_one(attempt, number, entry, options, folder);
         trace_mesh(attempt, number, entry, start, log);
         if (goes_on && keep == Keep::nothing && !attempt.described.empty())
             attempt.described.back() = without_content(std::move(attempt.described.back()));
         if (!goes_on || (state != nullptr && state->stop_is_raised())) counter.exhaust();
     }
     log.end_of_own_work();
-    log_steps(attempt, description, log);
+    log_steps(attempt, options, log);
     std::sort(attempt.described.begin(), attempt.described.end(),
               [](const DescribedMesh& a, const DescribedMesh& b) { return a.mesh.mesh < b.mesh.mesh; });
     return attempt;
@@ -199,16 +199,6 @@ void share_facts(const Comm& comm, Collection& collection, int oversegmentations
 
 }  // namespace
 
-namespace {
-
-std::vector<Descriptor> weighted_table(const RunOptions& options) {
-    std::vector<Descriptor> table = descriptor_table();
-    for (std::size_t row = 0; row < table.size(); ++row) table[row].weight = options.feature_weights.at(row);
-    return table;
-}
-
-}  // namespace
-
 std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs) {
     std::vector<MeshEntry> entries;
     agree(comm, [&] {
@@ -219,12 +209,13 @@ std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::stri
 }
 
 DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry>& entries,
-                                   const RunOptions& options, const RunState& state, StageLog& log) {
+                                   const DescriptionOptions& options, bool strict, const RunState& state,
+                                   StageLog& log) {
     const Attempt attempt = describe_dealt_meshes(comm, entries, options, &state, Keep::nothing, log);
     const std::vector<Failure> failures = gather_failures(comm, attempt);
     refuse_if_unwritable(failures);
     end_if_asked(comm, state, attempt, entries.size());
-    if (!failures.empty()) refuse_if_unusable(failures, entries.size(), options.strict);
+    if (!failures.empty()) refuse_if_unusable(failures, entries.size(), strict);
     DescribeTotals totals;
     std::vector<std::string> warnings;
     std::int64_t reused = 0;
@@ -242,12 +233,14 @@ DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry
 }
 
 DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
-                                        const RunOptions& options, const RunState* state, StageLog& log) {
+                                        const DescriptionOptions& options, bool strict, const RunState* state,
+                                        StageLog& log) {
+    log.begin("describe");
     Attempt attempt = describe_dealt_meshes(comm, entries, options, state, Keep::all, log);
     const std::vector<Failure> failures = gather_failures(comm, attempt);
     refuse_if_unwritable(failures);
     if (state != nullptr) end_if_asked(comm, *state, attempt, entries.size());
-    refuse_if_unusable(failures, entries.size(), options.strict);
+    refuse_if_unusable(failures, entries.size(), strict);
 
     DescribedCollection result;
     Collection& collection = result.collection;
@@ -269,8 +262,9 @@ DescribedCollection describe_collection(const Comm& comm, const std::vector<Mesh
         }
     }
     share_facts(comm, collection, options.oversegmentations);
-    result.descriptors.table = weighted_table(options);
-    if (!options.face_features.empty()) add_face_features(comm, result, options);
+    result.descriptors.table = descriptor_table();
+    log.end(described_summary(collection));
+    warn_of_meshes(collection, log);
     return result;
 }
 

@@ -33,14 +33,13 @@ std::vector<double> per_input_face(const FaceMap& map, const Eigen::VectorXd& va
 
 std::vector<std::vector<double>> shown_descriptors(const FinishedRun& run, const LabelledMesh& shape,
                                                    const std::vector<int>& chosen) {
-    RunOptions options;
+    DescriptionOptions options;
     options.seed = run.seed;
-    options.remesh = run.remesh;
+    options.remesh = named<RemeshMode>(run.remesh).value_or(options.remesh);
     options.patches = run.patches;
     options.geodesic_samples = run.geodesic_samples;
-    DescriptionOptions description = description_options(options);
-    description.descriptors = chosen;
-    const auto [mesh, descriptors] = describe_mesh_faces(shape.number, shape.name, shape.path, description);
+    options.descriptors = chosen;
+    const auto [mesh, descriptors] = describe_mesh_faces(shape.number, shape.name, shape.path, options);
     std::vector<std::vector<double>> values;
     for (const FaceDescriptor& descriptor : descriptors)
         values.push_back(per_input_face(mesh.map, shown_values(descriptor), mesh.geometry.area));

@@ -20,13 +20,6 @@ namespace {
 constexpr const char* cut_format = "coseg cut";
 constexpr int cut_version = 5;
 
-/// These change where things are, what is said or what is drawn.
-constexpr std::array<const char*, 19> without_effect{
-    "profile", "keep-model",  "out",           "state",        "checkpoint-seconds",
-    "config",  "force",       "quiet",         "verbose",      "json-log",
-    "sheet",   "html",        "view",          "up",           "refine",
-    "strict",  "max-seconds", "keep-features", "face-features"};
-
 /// Tile by tile, as columns are owned.
 ContentHash hash_of_coefficients(const Comm& comm, const SparseCoefficients& w) {
     std::vector<ContentHash> tiles;
@@ -74,31 +67,26 @@ ContentHash hash_of_relations(const Comm& comm, const Collection& collection) {
 }
 
 ContentHash cut_key(const Comm& comm, const PartitionInput& input, const std::string& options) {
-    const auto& [collection, features, coefficients, choice] = input;
     ContentHasher hasher;
     hasher.add(source_fingerprint(KeptPiece::cuts));
     hasher.add(std::int64_t{cut_version});
     hasher.add(options);
-    hasher.add(hash_of_coefficients(comm, coefficients).hex());
-    hasher.add(hash_of_relations(comm, collection).hex());
-    const std::vector<int> mesh_of = collection.numbering.mesh_of();
+    hasher.add(hash_of_coefficients(comm, input.coefficients).hex());
+    hasher.add(hash_of_relations(comm, input.collection).hex());
+    const std::vector<int> mesh_of = input.collection.numbering.mesh_of();
     hasher.add(std::span<const int>(mesh_of));
-    add_value(hasher, features.patch_area);
-    add_value(hasher, features.positions);
-    for (const ChoiceDescriptor& d : choice) add_value(hasher, d.histograms);
-    }
-    return hasher.result();
+    add_value(hasher, input.patch_area);
+    add_value(hasher, input.positions);
+    for (const ChoiceDescriptor& d : input.choice) add_value(hasher, d.histograms);
+}
+return hasher.result();
 }
 
 }  // namespace
 
-std::string cut_option_text(const std::vector<std::pair<std::string, std::string>>& resolved,
+std::string cut_option_text(const std::vector<OptionValue>& options,
                             const std::vector<std::string>& petsc_arguments) {
-    std::string text;
-    for (const auto& [name, value] : resolved) {
-        if (std::find(without_effect.begin(), without_effect.end(), name) == without_effect.end())
-            text += name + "=" + value + "\n";
-    }
+    std::string text = option_text(options, Affects::cut);
     for (const std::string& argument : petsc_arguments) text += argument + "\n";
     return text;
 }
@@ -119,9 +107,9 @@ CutResult read_cut(const std::string& path) {
     return cut;
 }
 
-CutResult PartitionCheckpoint::cut(const PartitionInput& input, const RunOptions& options) {
+CutResult PartitionCheckpoint::cut(const PartitionInput& input, const PartitionOptions& options) {
     // Clusters of descriptors take no longer than looking them up.
-    if (options.partition == "diffusion") return cut_into_parts(comm_, input, options);
+    if (options.method == PartitionMethod::diffusion) return cut_into_parts(comm_, input, options);
     const std::string file = state_.folder().cut_file(cut_key(comm_, input, options_));
     std::vector<std::string> damage;
     std::optional<CutResult> found;
@@ -153,7 +141,7 @@ CutResult PartitionCheckpoint::cut(const PartitionInput& input, const RunOptions
     return cut;
 }
 
-CutResult cut_or_found(const Comm& comm, const PartitionInput& input, const RunOptions& options,
+CutResult cut_or_found(const Comm& comm, const PartitionInput& input, const PartitionOptions& options,
                        PartitionCheckpoint* checkpoint) {
     return checkpoint != nullptr ? checkpoint->cut(input, options) : cut_into_parts(comm, input, options);
 }

@@ -20,7 +20,7 @@ using test::error_of;
 using test::TemporaryFolder;
 
 const DescriptionOptions quick{.seed = 3,
-                               .remesh = "auto",
+                               .remesh = RemeshMode::automatic,
                                .patches = 8,
                                .oversegmentations = 2,
                                .cut_noise = 0.3,
@@ -120,7 +120,8 @@ TEST(KeptDescription, IsMadeAnewIfItsFileIsDamaged) {
     DescribedMesh again = kept_description(0, entry, quick, &folder);
     EXPECT_FALSE(again.mesh.reused);
     ASSERT_EQ(again.mesh.warnings.size(), made.mesh.warnings.size() + 1);
-    EXPECT_NE(again.mesh.warnings.back().find(file + ": is damaged"), std::string::npos) << again.mesh.warnings.back();
+    EXPECT_NE(again.mesh.warnings.back().find(file + ": is damaged"), std::string::npos)
+        << again.mesh.warnings.back();
     again.mesh.warnings.pop_back();
     expect_same(made, again);
     EXPECT_EQ(folder.leftovers().size(), 1U);
@@ -158,7 +159,7 @@ TEST(DescriptionKey, ChangesWithAllThatMatters) {
         if (change == 2) other.oversegmentations = 3;
         if (change == 3) other.cut_noise = 0.31;
         if (change == 4) other.geodesic_samples = 21;
-        if (change == 5) other.remesh = "never";
+        if (change == 5) other.remesh = RemeshMode::never;
         if (change == 6) other.descriptors = {0, 1, 2, 3};
         EXPECT_NE(description_key(bytes, "a", "x/a.off", other), key) << change;
     }
