@@ -7,9 +7,10 @@ cmake_minimum_required(VERSION 3.22)
 # them reaches the piece as values, which its key has by their content, or does not reach it at all. Comments and white space
 # do not count.
 
-# A mesh's description is a function of the mesh's bytes and of the options of the description.
+# A mesh's description is a function of the mesh's bytes and of the options of the description. Mesh formats are read and
+# written in one unit, and what is written has the colours of pictures.
 set(descriptions_ROOTS mpi_drivers/describe/mesh_description.cpp mpi_drivers/describe/description_file.cpp)
-set(descriptions_GIVEN mpi_drivers/options mpi_drivers/process)
+set(descriptions_GIVEN mpi_drivers/options mpi_drivers/process src/pictures)
 
 # Tiles and iterates of the optimiser are functions of the problem and of the options of the solve.
 set(solutions_ROOTS solvers/variants/subspace_variants.cpp mpi_drivers/optimise/solver_checkpoint_files.cpp
@@ -22,7 +23,7 @@ set(cuts_GIVEN mpi_drivers/options mpi_drivers/process mpi_drivers/describe mpi_
 
 # The features of a model's patches: the features of a later mesh are compared with them.
 set(features_ROOTS mpi_drivers/describe/mesh_description.cpp mpi_drivers/describe/feature_stage.cpp)
-set(features_GIVEN mpi_drivers/options mpi_drivers/process solvers/partition)
+set(features_GIVEN mpi_drivers/options mpi_drivers/process solvers/partition src/pictures)
 
 set(pieces descriptions solutions cuts features)
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "src/base/error.hpp"
+#include "src/base/seeded_random.hpp"
 #include "src/mesh/connected_pieces.hpp"
 #include "src/mesh/dihedral_cost.hpp"
 #include "tests/support/generated_shapes.hpp"
