@@ -1,7 +1,7 @@
 // Measures what the subspace solvers cost: seconds, iterations, passes and memory against N, and the dense
 // form beside the working set where it fits.
 //
-//   mpirun -n P solver_bench [--sizes 1000,5000,20000] [--dense-up-to 1000] [--scope paper] [--lambda 1000]
+//   mpirun -n P solver_bench [--sizes 1000,5000,20000] [--dense-up-to 1000] [--scope rows] [--lambda 1000]
 //                            [--gap 1e-4] [--links 0] [--strong]
 //
 // --strong first solves each case on rank 0 alone, and prints how much longer that takes than all ranks
@@ -21,6 +21,7 @@
 #include <thread>
 
 #include "bench/mpi_program.hpp"
+#include "mpi_drivers/options/enum_option.hpp"
 #include "solvers/numeric/blas.hpp"
 #include "solvers/partition/patch_partition.hpp"
 #include "solvers/petsc/petsc_session.hpp"
@@ -69,12 +70,13 @@ int MPI_Alltoallv(const void* send, const int* counts, const int* offsets, MPI_D
 namespace {
 
 using coseg::PenaltyScope;
+using coseg::SolverChoice;
 using nlohmann::ordered_json;
 
 struct Settings {
     std::vector<int> sizes{1000, 5000};
     int dense_up_to = 1000;
-    std::string scope = "paper";
+    PenaltyScope scope = PenaltyScope::rows;
     double lambda = 1000.0;
     double gap = 1e-4;
     int links = 0;
@@ -107,7 +109,7 @@ Eigen::VectorXd patch_histogram(int feature, int patch) {
 coseg::SubspaceProblem generate(const coseg::Comm& comm, int size, const Settings& settings) {
     constexpr double weight[features] = {1.0, 0.5, 1.0, 2.0, 1.0};
     coseg::SubspaceProblem problem;
-    problem.scope = settings.scope == "mesh" ? PenaltyScope::meshes : PenaltyScope::rows;
+    problem.scope = settings.scope;
     problem.lambda = settings.lambda;
     problem.features = coseg::FeatureMatrices(comm, std::vector<Eigen::Index>(features, bins), size);
     problem.features.for_each_column([&](Eigen::Index j, double* column) {
@@ -121,7 +123,7 @@ coseg::SubspaceProblem generate(const coseg::Comm& comm, int size, const Setting
     std::vector<std::string> names;
     for (int m = 0; m < meshes; ++m) names.push_back(std::to_string(m));
     const int by_default = meshes <= coseg::meshes_linked_to_all ? meshes : coseg::default_links;
-    if (settings.scope == "mesh")
+    if (settings.scope == PenaltyScope::meshes)
         problem.allowed_meshes =
             coseg::mesh_links(names, settings.links > 0 ? settings.links : by_default, 1);
     return problem;
@@ -247,7 +249,7 @@ ordered_json cut_figures(const coseg::Comm& comm, const coseg::SolveResult& resu
 }
 
 ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& problem, const Settings& settings,
-                     const std::string& solver, const MemoryWatch& memory) {
+                     SolverChoice solver, const MemoryWatch& memory) {
     const double machine = machine_gigaflops(comm);
     MPI_Barrier(comm.raw());
     const coseg::Stopwatch clock;
@@ -257,7 +259,7 @@ ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& prob
     const double seconds = coseg::all_max(comm, clock.seconds());
     const double cpu = sum_over_ranks(comm, coseg::PassClock::cpu_seconds() - cpu_start);
     ordered_json json{{"n", problem.size()},
-                      {"solver", solver},
+                      {"solver", to_string(solver)},
                       {"seconds", seconds},
                       {"cpu_seconds", cpu},
                       {"objective", result.objective},
@@ -270,7 +272,7 @@ ordered_json measure(const coseg::Comm& comm, const coseg::SubspaceProblem& prob
                       {"working_pairs", result.working_pairs},
                       {"nonzero_groups", result.nonzero_groups},
                       {"peak_megabytes_so_far", memory.peak_megabytes(comm)}};
-    if (settings.scope == "paper" && solver == "working-set") {
+    if (settings.scope == PenaltyScope::rows && solver == SolverChoice::working_set) {
         json["pass"] = pass_figures(comm, problem, result, machine);
     }
     for (const int clusters : settings.clusters)
@@ -293,7 +295,8 @@ ordered_json measure_alone(const coseg::Comm& comm, int size, const Settings& se
                            const MemoryWatch& memory) {
     ordered_json alone;
     const coseg::Comm own = comm.split(comm.rank());
-    if (comm.is_root()) alone = measure(own, generate(own, size, settings), settings, "working-set", memory);
+    if (comm.is_root())
+        alone = measure(own, generate(own, size, settings), settings, SolverChoice::working_set, memory);
     wait_for_root(comm);
     return alone;
 }
@@ -314,7 +317,7 @@ void run(const Settings& settings) {
     const coseg::Comm comm(MPI_COMM_WORLD);
     const MemoryWatch memory;
     ordered_json report{{"version", COSEG_VERSION},      {"build", COSEG_BUILD_TYPE},
-                        {"ranks", comm.size()},          {"scope", settings.scope},
+                        {"ranks", comm.size()},          {"scope", to_string(settings.scope)},
                         {"lambda", settings.lambda},     {"gap", settings.gap},
                         {"features", features},          {"bins", bins},
                         {"cases", ordered_json::array()}};
@@ -322,11 +325,11 @@ void run(const Settings& settings) {
         ordered_json alone;
         if (settings.strong) alone = measure_alone(comm, size, settings, memory);
         const coseg::SubspaceProblem problem = generate(comm, size, settings);
-        report["cases"].push_back(measure(comm, problem, settings, "working-set", memory));
+        report["cases"].push_back(measure(comm, problem, settings, SolverChoice::working_set, memory));
         if (settings.strong && comm.is_root())
             report["cases"].back()["strong_scaling"] = strong_scaling(alone, report["cases"].back());
-        if (settings.scope == "paper" && size <= settings.dense_up_to) {
-            report["cases"].push_back(measure(comm, problem, settings, "dense", memory));
+        if (settings.scope == PenaltyScope::rows && size <= settings.dense_up_to) {
+            report["cases"].push_back(measure(comm, problem, settings, SolverChoice::dense, memory));
         }
     }
     if (comm.is_root()) std::cout << report.dump(2) << std::endl;
@@ -338,7 +341,7 @@ int program(int argc, char** argv) {
     app.add_option("--sizes", settings.sizes, "Numbers of patches")->delimiter(',')->capture_default_str();
     app.add_option("--dense-up-to", settings.dense_up_to, "Largest N for the dense form")
         ->capture_default_str();
-    app.add_option("--scope", settings.scope, "paper or mesh")->check(CLI::IsMember({"paper", "mesh"}));
+    coseg::add_enum_option(app, "--scope", settings.scope, "What lambda's squared sums run over");
     app.add_option("--lambda", settings.lambda, "Penalty of the scope")->capture_default_str();
     app.add_option("--links", settings.links,
                    "Mesh scope: meshes in which a patch may have matches; 0 is the default rule")

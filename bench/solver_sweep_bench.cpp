@@ -3,7 +3,7 @@
 //
 //   mpirun -n P solver_sweep_bench [--kinds random,histogram,counts] [--size 40] [--gaps 1e-4,1e-8]
 //                                  [--seconds 10] [--alphas 0,.01,.1,.5] [--betas 0,.01,.1,.5]
-//                                  [--lambdas 0,1e-3,1e-2,.1,1,100,1e4] [--scopes paper,mesh]
+//                                  [--lambdas 0,1e-3,1e-2,.1,1,100,1e4] [--scopes rows,meshes]
 //
 // The penalties are those of columns of unit length. For counts they are multiplied by the mean squared
 // length of a column, so that they have the same effect.
@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/mpi_program.hpp"
+#include "mpi_drivers/options/enum_option.hpp"
 #include "solvers/row_scope/pass_clock.hpp"
 #include "solvers/variants/subspace_solver.hpp"
 #include "src/base/seeded_random.hpp"
@@ -26,9 +27,14 @@ using coseg::PenaltyScope;
 using coseg::SubspaceProblem;
 using nlohmann::ordered_json;
 
+enum class Kind { random, histogram, counts };
+constexpr std::array<coseg::EnumName<Kind>, 3> enum_names(Kind /*type*/) {
+    return {{{Kind::random, "random"}, {Kind::histogram, "histogram"}, {Kind::counts, "counts"}}};
+}
+
 struct Settings {
-    std::vector<std::string> kinds{"random", "histogram", "counts"};
-    std::vector<std::string> scopes{"paper", "mesh"};
+    std::vector<Kind> kinds{Kind::random, Kind::histogram, Kind::counts};
+    std::vector<PenaltyScope> scopes{PenaltyScope::rows, PenaltyScope::meshes};
     std::vector<double> alphas{0.0, 0.01, 0.1, 0.5};
     std::vector<double> betas{0.0, 0.01, 0.1, 0.5};
     std::vector<double> lambdas{0.0, 1e-3, 1e-2, 0.1, 1.0, 100.0, 1e4};
@@ -36,19 +42,19 @@ struct Settings {
     int size = 40;
     int rows = 20;
     double seconds = 10.0;
-    std::string solver = "auto";
+    coseg::SolverChoice solver = coseg::SolverChoice::automatic;
 };
 
 constexpr int features = 5;
 constexpr int parts = 5;
 
 /// A column of one patch: independent entries, or bumps around its part's centres.
-Eigen::VectorXd column_of(const std::string& kind, int rows, int feature, int patch) {
+Eigen::VectorXd column_of(Kind kind, int rows, int feature, int patch) {
     const auto h = static_cast<std::uint64_t>(feature);
     coseg::SeededStream part(coseg::hash_words({19, h, static_cast<std::uint64_t>(patch % parts)}));
     coseg::SeededStream own(coseg::hash_words({17, h, static_cast<std::uint64_t>(patch)}));
     Eigen::VectorXd x = Eigen::VectorXd::Zero(rows);
-    if (kind == "random") {
+    if (kind == Kind::random) {
         for (int k = 0; k < rows; ++k) x[k] = std::pow(own.uniform(), 3.0);
         return x.normalized();
     }
@@ -60,11 +66,11 @@ Eigen::VectorXd column_of(const std::string& kind, int rows, int feature, int pa
             x[k] += mass * own.uniform(0.5, 1.5) * std::exp(-0.5 * std::pow((k - centre) / width, 2));
         }
     }
-    if (kind == "counts") return (200.0 / x.sum() * x).array().round().matrix();
+    if (kind == Kind::counts) return (200.0 / x.sum() * x).array().round().matrix();
     return (x / x.sum()).cwiseSqrt();
 }
 
-SubspaceProblem generate(const std::string& kind, const Settings& settings) {
+SubspaceProblem generate(Kind kind, const Settings& settings) {
     SubspaceProblem problem;
     std::vector<Eigen::MatrixXd> matrices;
     for (int h = 0; h < features; ++h) {
@@ -90,8 +96,8 @@ struct Summary {
     double total = 0.0;
 };
 
-void run_case(const coseg::Comm& comm, const SubspaceProblem& problem, const std::string& kind,
-              const Settings& settings, double gap, Summary& summary) {
+void run_case(const coseg::Comm& comm, const SubspaceProblem& problem, Kind kind, const Settings& settings,
+              double gap, Summary& summary) {
     const double start = coseg::PassClock::cpu_seconds();
     const coseg::SolveResult result = solve_subspace(
         comm, problem, {.gap = gap, .max_seconds = settings.seconds, .solver = settings.solver});
@@ -100,8 +106,8 @@ void run_case(const coseg::Comm& comm, const SubspaceProblem& problem, const std
     summary.reached += result.relative_gap <= gap ? 1 : 0;
     summary.slowest = std::max(summary.slowest, seconds);
     summary.total += seconds;
-    const ordered_json line{{"kind", kind},
-                            {"scope", problem.scope == PenaltyScope::meshes ? "mesh" : "paper"},
+    const ordered_json line{{"kind", coseg::to_string(kind)},
+                            {"scope", to_string(problem.scope)},
                             {"alpha", problem.alpha},
                             {"beta", problem.beta},
                             {"lambda", problem.lambda},
@@ -120,11 +126,11 @@ void run_case(const coseg::Comm& comm, const SubspaceProblem& problem, const std
 void run(const Settings& settings) {
     const coseg::Comm comm(MPI_COMM_WORLD);
     Summary summary;
-    for (const std::string& kind : settings.kinds) {
+    for (const Kind kind : settings.kinds) {
         SubspaceProblem problem = generate(kind, settings);
-        const double scale = kind == "counts" ? mean_square(problem) : 1.0;
-        for (const std::string& scope : settings.scopes) {
-            problem.scope = scope == "mesh" ? PenaltyScope::meshes : PenaltyScope::rows;
+        const double scale = kind == Kind::counts ? mean_square(problem) : 1.0;
+        for (const PenaltyScope scope : settings.scopes) {
+            problem.scope = scope;
             for (const double lambda : settings.lambdas) {
                 for (const double alpha : settings.alphas) {
                     for (const double beta : settings.betas) {
@@ -148,8 +154,8 @@ void run(const Settings& settings) {
 int program(int argc, char** argv) {
     Settings settings;
     CLI::App app("Gaps of the subspace solvers over the range of the penalties");
-    app.add_option("--kinds", settings.kinds, "random, histogram, counts")->delimiter(',');
-    app.add_option("--scopes", settings.scopes, "paper, mesh")->delimiter(',');
+    coseg::add_enum_list_option(app, "--kinds", settings.kinds, "What the columns are");
+    coseg::add_enum_list_option(app, "--scopes", settings.scopes, "What lambda's squared sums run over");
     app.add_option("--alphas", settings.alphas)->delimiter(',')->capture_default_str();
     app.add_option("--betas", settings.betas)->delimiter(',')->capture_default_str();
     app.add_option("--lambdas", settings.lambdas)->delimiter(',')->capture_default_str();
@@ -157,7 +163,7 @@ int program(int argc, char** argv) {
     app.add_option("--size", settings.size, "Columns")->capture_default_str();
     app.add_option("--rows", settings.rows, "Rows of a feature")->capture_default_str();
     app.add_option("--seconds", settings.seconds, "Limit of a case")->capture_default_str();
-    app.add_option("--solver", settings.solver, "auto, dense or working-set")->capture_default_str();
+    coseg::add_enum_option(app, "--solver", settings.solver, "How W is stored");
     return coseg::parse_and_run(app, argc, argv, [&] { run(settings); });
 }
 

@@ -2,7 +2,6 @@
 // The pipeline of `coseg run`: from a list of meshes to one consistent segmentation, stage by stage.
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "mpi_drivers/options/run_options.hpp"
@@ -10,11 +9,10 @@
 
 namespace coseg {
 
-/// Runs all stages and writes the folder options.out. Collective; throws AgreedError: not_converged also after all is written,
-/// where a limit ended the optimiser before its gap.
-/// resolved: the options as the report lists them. petsc_arguments: what follows `--`.
+/// Runs all stages and writes the folder options.output.folder. petsc_arguments: what follows `--` on the
+/// command line. Collective; throws AgreedError: not_converged also after all is written, where a limit ended
+/// the optimiser before its gap.
 void co_segment(const Comm& comm, const RunOptions& options,
-                const std::vector<std::pair<std::string, std::string>>& resolved,
-                const std::vector<std::string>& petsc_arguments);
+                const std::vector<std::string>& petsc_arguments = {});
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
-// The one entry and the one exit: parses the command line, runs a subcommand, and turns every failure into one
-// sentence on rank 0 and a documented exit code on all ranks.
+// The one entry and the one exit: parses the command line, runs a subcommand, and turns every failure into
+// one sentence on rank 0 and a documented exit code on all ranks.
 
 #include <malloc.h>
 #include <mpi.h>
@@ -165,8 +165,9 @@ bool has_state_folder(int argc, char** argv) {
     return false;
 }
 
-/// libpsm2, which Open MPI loads whether there is such a network or not, makes malloc keep what is freed, for the sake of
-/// pinned pages: large arrays are then cut from one heap, which grows with every stage and never shrinks.
+/// libpsm2, which Open MPI loads whether there is such a network or not, makes malloc keep what is freed, for
+/// the sake of pinned pages: large arrays are then cut from one heap, which grows with every stage and never
+/// shrinks.
 void return_freed_memory() {
     constexpr int mebibyte = 1 << 20;
     mallopt(M_MMAP_MAX, 65536);  // glibc's own value

@@ -61,7 +61,7 @@ ROOMS = {
     "mpi_drivers/finished_runs": ("mpi_drivers/describe",),
     "mpi_drivers/results": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
                             "mpi_drivers/partition", "mpi_drivers/finished_runs"),
-    # co_segmentation, the list of the stages; main.cpp belongs to no room.
+    # co_segmentation and assignment, the lists of the stages; main.cpp belongs to no room.
     "mpi_drivers": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
                     "mpi_drivers/partition", "mpi_drivers/results"),
     "mpi_drivers/commands": ("mpi_drivers", "mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe",

@@ -27,13 +27,11 @@ int main(int argc, char** argv) {
             if (world.is_root()) std::printf("%s: mean shape diameter %.3f\n", path, thickness.mean());
         }
         coseg::RunOptions options;
-        options.inputs = {argv[1], argv[2]};
-        options.parts = 2;
-        options.out = "two_meshes_result";
-        options.force = true;
-        // report.html lists the options of a command line, and this program has none.
-        options.html = false;
-        coseg::co_segment(world, options, {}, {});
+        options.process.inputs = {argv[1], argv[2]};
+        options.partition.parts = 2;
+        options.output.folder = "two_meshes_result";
+        options.output.force = true;
+        coseg::co_segment(world, options);
     }
     MPI_Finalize();
 }

@@ -22,7 +22,7 @@ void set_json(JsonPlace place, const T& value) {
     } else if constexpr (std::is_floating_point_v<T>) {
         place.set(static_cast<double>(value));
     } else if constexpr (NamedEnum<T>) {
-        place.set(name_of_value(value));
+        place.set(name_of(value));
     } else if constexpr (std::is_unsigned_v<T>) {
         place.set(static_cast<std::uint64_t>(value));
     } else if constexpr (Scalar<T>) {

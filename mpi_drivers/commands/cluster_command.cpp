@@ -10,6 +10,7 @@
 #include "io/data_files/label_file.hpp"
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
 #include "solvers/partition/patch_partition.hpp"
 #include "solvers/petsc/petsc_session.hpp"
@@ -22,18 +23,32 @@ namespace coseg {
 
 namespace {
 
+enum class ClusterScope {
+    automatic,  ///< meshes where the file groups its items
+    rows,
+    meshes,
+};
+constexpr std::array<EnumName<ClusterScope>, 3> enum_names(ClusterScope /*type*/) {
+    return {{{ClusterScope::automatic, "auto"},
+             {ClusterScope::rows, name_of(PenaltyScope::rows)},
+             {ClusterScope::meshes, name_of(PenaltyScope::meshes)}}};
+}
+constexpr std::array<EnumName<ClusterScope>, 2> enum_aliases(ClusterScope /*type*/) {
+    return {{{ClusterScope::rows, "paper"}, {ClusterScope::meshes, "mesh"}}};
+}
+
 struct ClusterSettings {
     std::string path;
     std::string out;
     std::string coefficients;
     int parts = 0;
     bool unit_columns = false;
-    std::string variant = "multi-feature";
-    std::string scope = "auto";
+    SubspaceVariant variant = SubspaceVariant::multi_feature;
+    ClusterScope scope = ClusterScope::automatic;
     int links = 0;
     std::uint64_t seed = 1;
     double alpha = 0.01, beta = 0.1, lambda = 1.0;
-    std::string affinity = "formula-8";
+    AffinityForm affinity = AffinityForm::formula_8;
     double adjacency = 0.0;
     SolveOptions options{.gap = 1e-4};
 };
@@ -77,13 +92,15 @@ SubspaceProblem make_problem(const FeatureFile& file, FeatureMatrices features,
     const bool grouped = !file.mesh_of.empty() &&
                          std::ranges::adjacent_find(file.mesh_of, std::not_equal_to()) != file.mesh_of.end();
     // One group has no other to link to: its items are then compared among themselves.
-    const bool mesh_scope = settings.scope == "mesh" || (settings.scope == "auto" && grouped);
-    if (settings.scope == "mesh" && !grouped) {
-        throw AgreedError(ExitCode::input, settings.path +
-                                               ": --scope mesh needs the dataset 'mesh_of' with at least two "
-                                               "groups; items of one group are not linked to each other");
+    const bool mesh_scope =
+        settings.scope == ClusterScope::meshes || (settings.scope == ClusterScope::automatic && grouped);
+    if (settings.scope == ClusterScope::meshes && !grouped) {
+        throw AgreedError(ExitCode::input,
+                          settings.path +
+                              ": --scope meshes needs the dataset 'mesh_of' with at least two "
+                              "groups; items of one group are not linked to each other");
     }
-    if (!mesh_scope || !keeps_scope(variant_of(settings.variant))) return problem;
+    if (!mesh_scope || !keeps_scope(settings.variant)) return problem;
     problem.scope = PenaltyScope::meshes;
     problem.mesh_of = file.mesh_of;
     const int meshes = 1 + *std::ranges::max_element(problem.mesh_of);
@@ -137,7 +154,7 @@ CutResult cut(const Comm& comm, const FeatureFile& file, const SolveResult& solu
                                          : file.patch_area;
     CutOptions options;
     options.parts = settings.parts;
-    options.form = settings.affinity == "links" ? AffinityForm::links : AffinityForm::paper;
+    options.form = settings.affinity;
     options.minima_rule = !neighbors.empty();
     options.starts = single_start(settings.parts, settings.adjacency);
     return partition_patches(comm, {solution.coefficients, neighbors, overlaps, mesh_of, area}, options);
@@ -148,8 +165,8 @@ nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveResult
     auto json = nlohmann::ordered_json::parse(certificate_json(problem, solution));
     std::vector<std::int64_t> sizes(static_cast<std::size_t>(settings.parts), 0);
     for (const int part : result.part_of_patch) ++sizes[at(part)];
-    json.update({{"variant", settings.variant},
-                 {"scope", problem.scope == PenaltyScope::meshes ? "mesh" : "paper"},
+    json.update({{"variant", to_string(settings.variant)},
+                 {"scope", to_string(problem.scope)},
                  {"parts", settings.parts},
                  {"items_of_part", sizes}});
     if (!result.starts.empty()) json["eigenvalues"] = result.eigenvalues;
@@ -167,8 +184,7 @@ void cluster_file(const Invocation& invocation, const ClusterSettings& settings)
     SubspaceProblem problem = make_problem(file, std::move(features), settings);
     agree(comm, [&] { validate(problem, file, settings); });
     if (settings.unit_columns) scale_columns(problem.features);
-    const SolveResult solution =
-        solve_variant(comm, problem, variant_of(settings.variant), 0, settings.options);
+    const SolveResult solution = solve_variant(comm, problem, settings.variant, 0, settings.options);
     write_coefficients(comm, solution, settings.coefficients);
     if (settings.parts > 1) refuse_empty_solution(solution, settings.path);
     const CutResult result = cut(comm, file, solution, settings);
@@ -180,15 +196,10 @@ void cluster_file(const Invocation& invocation, const ClusterSettings& settings)
 }
 
 void add_problem_options(CLI::App& app, ClusterSettings& settings) {
-    app.add_option("--variant", settings.variant, "Form of the problem; see docs/method.md")
-        ->check(CLI::IsMember(variant_names()))
-        ->capture_default_str();
-    app.add_option(
-           "--scope", settings.scope,
-           "What lambda punishes: row sums (paper), matches per mesh (mesh), or mesh where the file groups "
-           "its items (auto)")
-        ->check(CLI::IsMember({"auto", "paper", "mesh"}))
-        ->capture_default_str();
+    add_enum_option(app, "--variant", settings.variant, "Form of the problem; see docs/method.md");
+    add_enum_option(app, "--scope", settings.scope,
+                    "What lambda punishes: row sums (rows, as in the paper), matches per mesh (meshes), or "
+                    "meshes where the file groups its items (auto)");
     app.add_option("--links", settings.links,
                    "Mesh scope: other groups in which an item may have matches, a seeded sample; 0 is all")
         ->check(CLI::Range(0, 1 << 30))
@@ -245,10 +256,8 @@ Command add_cluster_command(CLI::App& parent) {
                     "HDF5 file for W; written also where a limit ends the solve")
         ->type_name("FILE");
     add_problem_options(*app, *settings);
-    app->add_option("--affinity", settings->affinity,
-                    "formula-8 (the paper's) or links (every column sums to 1)")
-        ->check(CLI::IsMember({"links", "formula-8"}))
-        ->capture_default_str();
+    add_enum_option(*app, "--affinity", settings->affinity,
+                    "formula-8 (the paper's) or links (every column sums to 1)");
     app->add_option("--adjacency", settings->adjacency, "Weight of the file's neighbours and overlaps")
         ->check(finite_number)
         ->check(CLI::Range(0.0, 1000.0))

@@ -44,11 +44,13 @@ std::vector<MeshEntry> entries_of(const Shard& shard, std::vector<MeshEntry> ent
 
 void describe(const Comm& world, const RunOptions& options, const std::string& shard_text) {
     const Shard shard = parsed_shard(shard_text);
-    StageLog log(world, options.quiet ? Verbosity::quiet : Verbosity::normal);
-    const RunState state(world, options.state, LockMode::shared, options.checkpoint_seconds);
-    const std::vector<MeshEntry> entries = entries_of(shard, list_meshes(world, options.inputs));
+    const ProcessOptions& process = options.process;
+    StageLog log(world, process.quiet ? Verbosity::quiet : Verbosity::normal);
+    const RunState state(world, process.state, LockMode::shared, process.checkpoint_seconds);
+    const std::vector<MeshEntry> entries = entries_of(shard, list_meshes(world, process.inputs));
     log.begin("describe");
-    const DescribeTotals totals = describe_into_state(world, entries, options, state, log);
+    const DescribeTotals totals =
+        describe_into_state(world, entries, description_options(options), process.strict, state, log);
     log.end(std::to_string(totals.described) + " described, " + std::to_string(totals.reused) +
             " were in the state folder");
     for (const SetAside& mesh : totals.set_aside) log.warn("set aside: " + mesh.reason);

@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "io/mesh_files/mesh_format.hpp"
-#include "mpi_drivers/finished_runs/face_descriptors.hpp"
 #include "mpi_drivers/finished_runs/finished_shapes.hpp"
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
+#include "mpi_drivers/finished_runs/shown_descriptors.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -49,13 +50,25 @@ PolygonMesh on_grid(const LabelledMesh& shape, int shapes, const View& front) {
     return placed;
 }
 
+/// Those that count by default.
+std::vector<int> exported_descriptors() {
+    std::vector<int> rows;
+    const std::vector<Descriptor>& table = descriptor_table();
+    for (std::size_t row = 0; row < table.size(); ++row) {
+        if (table[row].weight > 0.0) rows.push_back(static_cast<int>(row));
+    }
+    return rows;
+}
+
 FaceArrays face_arrays(const FinishedRun& run, const LabelledMesh& shape, bool with_descriptors) {
     FaceArrays arrays;
     arrays.labels = {{"part", shape.part}, {"patch", shape.patch}};
     if (!shape.truth.empty()) arrays.labels.emplace_back("truth", shape.truth);
     if (!with_descriptors) return arrays;
-    const FaceDescriptors values = face_descriptors(run, shape);
-    for (std::size_t h = 0; h < values.size(); ++h) arrays.values.emplace_back(feature_names[h], values[h]);
+    const std::vector<int> rows = exported_descriptors();
+    const std::vector<std::vector<double>> values = shown_descriptors(run, shape, rows);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        arrays.values.emplace_back(descriptor_table()[at(rows[k])].name, values[k]);
     return arrays;
 }
 
@@ -79,7 +92,7 @@ View view_of_grid(const Comm& world, const std::vector<LabelledMesh>& shapes) {
     for (const LabelledMesh& shape : shapes)
         outlines.push_back(
             {shape.number, "", picture_mesh(shape.mesh, std::vector<Color>(shape.part.size()))});
-    return agree_on_view(world, outlines, {"front", "auto"});
+    return agree_on_view(world, outlines, {.view = "front"});
 }
 
 /// The shapes of this rank in a file each, and again in the grid if the format has a file that opens many.

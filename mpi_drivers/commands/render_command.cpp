@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "mpi_drivers/finished_runs/sheet_kinds.hpp"
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/enum_option.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -28,8 +30,16 @@ struct RenderOptions {
 };
 
 bool needs_truth(const std::vector<std::string>& kinds) {
-    return std::any_of(kinds.begin(), kinds.end(),
-                       [](const std::string& kind) { return kind == "truth" || kind == "errors"; });
+    return std::any_of(kinds.begin(), kinds.end(), [](const std::string& kind) {
+        const std::optional<SheetColoring> coloring = named<SheetColoring>(kind);
+        return coloring == SheetColoring::truth || coloring == SheetColoring::errors;
+    });
+}
+
+std::string comma_separated(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
 }
 
 /// --names, else what lies beside the known labels, else none. Collective; throws AgreedError(input).
@@ -79,8 +89,7 @@ Command add_render_command(CLI::App& parent) {
     app->add_option("RESULT", options->input.folder, "The folder that coseg run was given with --out")
         ->required();
     app->add_option("--what", options->kinds,
-                    "What colours the faces, one or several with commas: parts, patches, truth, errors, "
-                    "gaussian_curvature, shape_diameter, average_geodesic, shape_context, conformal_factor")
+                    "What colours the faces, one or several with commas: " + comma_separated(sheet_kinds()))
         ->delimiter(',')
         ->capture_default_str()
         ->check(CLI::IsMember(sheet_kinds()))
@@ -98,9 +107,7 @@ Command add_render_command(CLI::App& parent) {
                     "auto (the largest outlines), front, back, left, right, top, bottom, corner, or "
                     "AZIMUTH,ELEVATION in degrees")
         ->capture_default_str();
-    app->add_option("--up", options->view.up, "The axis that points up: auto, x, y, z")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"auto", "x", "y", "z"}));
+    add_enum_option(*app, "--up", options->view.up, "The axis that points up: auto, x, y, z");
     app->add_option("--out", options->out, "Folder for the pictures; RESULT itself if not given");
     app->footer("Example: mpirun -n 2 coseg render result --what parts,errors --truth my_labels");
     return {app, [options](const Invocation& invocation) { render(*options, invocation.world); }};

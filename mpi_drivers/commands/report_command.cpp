@@ -6,6 +6,7 @@
 
 #include "io/reports/report_page.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/results/report_stage.hpp"
 #include "src/base/error.hpp"
 
@@ -22,9 +23,7 @@ Command add_report_command(CLI::App& parent) {
     app->add_option("--meshes", input->meshes,
                     "Where the meshes are now, if not where the run found them: files, folders or @LIST")
         ->type_name("MESH|DIRECTORY|@LIST");
-    app->add_option("--up", choice->up, "The axis that points up: auto, x, y, z")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"auto", "x", "y", "z"}));
+    add_enum_option(*app, "--up", choice->up, "The axis that points up: auto, x, y, z");
     app->footer("Example: coseg report result --truth my_labels");
     return {app, [input, choice](const Invocation& invocation) {
                 write_html_report(invocation.world, *input, input->folder, *choice);

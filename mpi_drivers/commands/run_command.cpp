@@ -19,7 +19,7 @@ Command add_run_command(CLI::App& parent) {
         "-- goes to PETSc and SLEPc.\nExample: coseg run --parts 4 --out result "
         "chairs/");
     return {app, [options, table](const Invocation& invocation) {
-                co_segment(invocation.world, *options, table->resolved(), invocation.petsc_arguments);
+                co_segment(invocation.world, *options, invocation.petsc_arguments);
             }};
 }
 

@@ -8,6 +8,7 @@
 #include "io/data_files/problem_file.hpp"
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
@@ -21,11 +22,11 @@ namespace {
 struct SolveSettings {
     std::string path;
     std::string coefficients;
-    std::string scope = "paper";
+    PenaltyScope scope = PenaltyScope::rows;
     int patches_per_mesh = 1;
     int links = 0;
     std::uint64_t seed = 1;
-    std::string variant = "multi-feature";
+    SubspaceVariant variant = SubspaceVariant::multi_feature;
     int feature = 1;
     SolveOptions options{.gap = 1e-6};
 };
@@ -48,7 +49,7 @@ SubspaceProblem problem_of(const ProblemFile& file, FeatureMatrices features, co
     problem.lambda = file.lambda;
     problem.alpha = file.alpha;
     problem.beta = file.beta;
-    if (settings.scope == "mesh" && keeps_scope(variant_of(settings.variant))) {
+    if (settings.scope == PenaltyScope::meshes && keeps_scope(settings.variant)) {
         problem.scope = PenaltyScope::meshes;
         for (std::int64_t i = 0; i < problem.size(); ++i) {
             problem.mesh_of.push_back(static_cast<int>(i / settings.patches_per_mesh));
@@ -61,10 +62,10 @@ SubspaceProblem problem_of(const ProblemFile& file, FeatureMatrices features, co
 }
 
 void solve_file(const Comm& comm, const SolveSettings& settings) {
-    if (settings.links > 0 && (settings.scope != "mesh" || !keeps_scope(variant_of(settings.variant)))) {
+    if (settings.links > 0 && (settings.scope != PenaltyScope::meshes || !keeps_scope(settings.variant))) {
         throw AgreedError(
             ExitCode::usage,
-            "--links needs --scope mesh and a variant that keeps it; row scope, ssc and ssqp are "
+            "--links needs --scope meshes and a variant that keeps it; row scope, ssc and ssqp are "
             "over all pairs");
     }
     FeatureMatrices features;
@@ -72,15 +73,15 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
     const SubspaceProblem problem = problem_of(file, std::move(features), settings);
     const Stopwatch clock;
     const SolveResult result =
-        solve_variant(comm, problem, variant_of(settings.variant), settings.feature - 1, settings.options);
+        solve_variant(comm, problem, settings.variant, settings.feature - 1, settings.options);
     const double seconds = clock.seconds();
     if (comm.is_root()) {
         auto json = nlohmann::ordered_json::parse(certificate_json(problem, result));
-        json.update({{"variant", settings.variant},
-                     {"scope", problem.scope == PenaltyScope::meshes ? "mesh" : "paper"},
+        json.update({{"variant", to_string(settings.variant)},
+                     {"scope", to_string(problem.scope)},
                      {"seconds", seconds},
                      {"ranks", comm.size()},
-                     {"solver", settings.options.solver}});
+                     {"solver", to_string(settings.options.solver)}});
         std::cout << json.dump(2) << std::endl;
     }
     write_coefficients(comm, result, settings.coefficients);
@@ -99,10 +100,8 @@ Command add_solve_command(CLI::App& parent) {
     app->add_option("--coefficients", settings->coefficients,
                     "HDF5 file for W; written also where a limit ends the solve")
         ->type_name("FILE");
-    app->add_option("--scope", settings->scope,
-                    "What lambda punishes: row sums (paper) or matches per mesh (mesh)")
-        ->check(CLI::IsMember({"paper", "mesh"}))
-        ->capture_default_str();
+    add_enum_option(*app, "--scope", settings->scope,
+                    "What lambda punishes: row sums (rows, as in the paper) or matches per mesh (meshes)");
     app->add_option("--patches-per-mesh", settings->patches_per_mesh,
                     "Mesh scope: columns that make up one mesh, in order")
         ->check(CLI::Range(1, 1 << 30))
@@ -117,16 +116,12 @@ Command add_solve_command(CLI::App& parent) {
         ->check(CLI::Range(0, 1 << 30))
         ->capture_default_str();
     app->add_option("--seed", settings->seed, "Of the sample of --links")->capture_default_str();
-    app->add_option("--variant", settings->variant, "Form of the problem; see docs/method.md")
-        ->check(CLI::IsMember(variant_names()))
-        ->capture_default_str();
+    add_enum_option(*app, "--variant", settings->variant, "Form of the problem; see docs/method.md");
     app->add_option("--feature", settings->feature, "Variant single-feature: which, counted from 1")
         ->check(CLI::Range(1, 1 << 30))
         ->capture_default_str();
-    app->add_option("--solver", settings->options.solver,
-                    "How W is stored: all pairs (dense) or a working set")
-        ->check(CLI::IsMember({"auto", "dense", "working-set"}))
-        ->capture_default_str();
+    add_enum_option(*app, "--solver", settings->options.solver,
+                    "How W is stored: all pairs (dense) or a working set");
     app->add_option("--gap", settings->options.gap, "Stop at this relative duality gap")
         ->check(finite_number)
         ->check(CLI::Range(1e-14, 1.0))

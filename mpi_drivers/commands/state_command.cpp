@@ -10,6 +10,7 @@
 #include "io/folders/state_folder.hpp"
 #include "io/folders/state_lock.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/enum_option.hpp"
 #include "src/base/text.hpp"
 #include "src/parallel/record_exchange.hpp"
 
@@ -17,9 +18,14 @@ namespace coseg {
 
 namespace {
 
+enum class StateAction { list, verify, prune };
+constexpr std::array<EnumName<StateAction>, 3> enum_names(StateAction /*type*/) {
+    return {{{StateAction::list, "list"}, {StateAction::verify, "verify"}, {StateAction::prune, "prune"}}};
+}
+
 struct StateOptions {
     std::string directory;
-    std::string action = "list";
+    StateAction action = StateAction::list;
     double unused_days = 30.0;
     bool dry_run = false;
 };
@@ -115,9 +121,14 @@ void prune(const Comm& world, const StateOptions& options) {
 }
 
 void run_state(const Comm& world, const StateOptions& options) {
-    if (options.action == "verify") return verify(world, options);
-    if (options.action == "prune") return prune(world, options);
-    list(world, options);
+    switch (options.action) {
+        case StateAction::list:
+            return list(world, options);
+        case StateAction::verify:
+            return verify(world, options);
+        case StateAction::prune:
+            return prune(world, options);
+    }
 }
 
 }  // namespace
@@ -125,12 +136,11 @@ void run_state(const Comm& world, const StateOptions& options) {
 Command add_state_command(CLI::App& parent) {
     const auto options = std::make_shared<StateOptions>();
     CLI::App* app = parent.add_subcommand("state", "List, verify or prune the folder of `coseg run --state`");
-    app->add_option(
-           "ACTION", options->action,
-           "list: files with size, age and content; verify: read all, compare checksums; prune: remove "
-           "what has not been used for long, and damaged files")
-        ->required()
-        ->check(CLI::IsMember({"list", "verify", "prune"}));
+    add_enum_option(
+        *app, "ACTION", options->action,
+        "list: files with size, age and content; verify: read all, compare checksums; prune: remove "
+        "what has not been used for long, and damaged files")
+        ->required();
     app->add_option("DIR", options->directory, "The state folder")->required();
     app->add_option("--unused-days", options->unused_days,
                     "prune: what no run has used for so many days goes")

@@ -7,6 +7,7 @@
 #include "io/files/record_hash.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 
 namespace coseg {
@@ -25,16 +26,19 @@ void write_vector(Hdf5Writer& file, const std::string& name, const Eigen::Vector
     file.write(name, std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
 }
 
-void write_descriptors(Hdf5Writer& file, const MeshDescription& description) {
-    for (std::size_t h = 0; h < feature_names.size(); ++h) {
-        if (description.descriptors[h].size() > 0)
-            write_vector(file, std::string("descriptors/") + feature_names[h], description.descriptors[h]);
+std::string dataset_of(const Descriptor& descriptor) { return "descriptors/" + descriptor.name; }
+
+void write_descriptors(Hdf5Writer& file, const FaceDescriptors& descriptors) {
+    for (const FaceDescriptor& one : descriptors) {
+        const std::string name = dataset_of(descriptor_table()[at(one.row)]);
+        if (const auto* numbers = std::get_if<Eigen::VectorXd>(&one.values)) {
+            write_vector(file, name, *numbers);
+            continue;
+        }
+        const auto& vectors = std::get<Eigen::MatrixXf>(one.values);
+        file.write(name, std::span<const float>(vectors.data(), at(vectors.size())),
+                   {at(vectors.cols()), at(vectors.rows())}, true);
     }
-    const Eigen::MatrixXf& context = description.shape_context;
-    file.write("descriptors/shape_context",
-               std::span<const float>(context.data(), static_cast<std::size_t>(context.size())),
-               {static_cast<std::uint64_t>(context.cols()), static_cast<std::uint64_t>(context.rows())},
-               true);
 }
 
 Eigen::VectorXd read_vector(const Hdf5Reader& file, const std::string& name) {
@@ -42,16 +46,24 @@ Eigen::VectorXd read_vector(const Hdf5Reader& file, const std::string& name) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-void read_descriptors(const Hdf5Reader& file, MeshDescription& description) {
-    for (std::size_t h = 0; h < feature_names.size(); ++h) {
-        const std::string name = std::string("descriptors/") + feature_names[h];
-        if (static_cast<Feature>(h) != Feature::shape_context && file.has(name))
-            description.descriptors[h] = read_vector(file, name);
+FaceDescriptors read_descriptors(const Hdf5Reader& file) {
+    FaceDescriptors descriptors;
+    const std::vector<Descriptor>& table = descriptor_table();
+    for (std::size_t row = 0; row < table.size(); ++row) {
+        const std::string name = dataset_of(table[row]);
+        if (!file.has(name)) continue;
+        if (table[row].bins != BinKind::words) {
+            descriptors.push_back({static_cast<int>(row), read_vector(file, name)});
+            continue;
+        }
+        const Hdf5Shape extent = file.shape(name);
+        const std::vector<float> values = file.read<float>(name);
+        descriptors.push_back(
+            {static_cast<int>(row), Eigen::MatrixXf(Eigen::Map<const Eigen::MatrixXf>(
+                                        values.data(), static_cast<Eigen::Index>(extent.at(1)),
+                                        static_cast<Eigen::Index>(extent.at(0))))});
     }
-    const Hdf5Shape extent = file.shape("descriptors/shape_context");
-    const std::vector<float> context = file.read<float>("descriptors/shape_context");
-    description.shape_context = Eigen::Map<const Eigen::MatrixXf>(
-        context.data(), static_cast<Eigen::Index>(extent.at(1)), static_cast<Eigen::Index>(extent.at(0)));
+    return descriptors;
 }
 
 }  // namespace
@@ -68,8 +80,9 @@ ContentHash description_key(std::string_view bytes, const std::string& name, con
     return hasher.result();
 }
 
-void write_description(const std::string& file_path, const MeshDescription& description,
-                       const std::string& name, const std::string& path, const DescriptionOptions& options) {
+void write_description(const std::string& file_path, const DescribedMesh& described, const std::string& name,
+                       const std::string& path, const DescriptionOptions& options) {
+    const MeshDescription& description = described.mesh;
     Hdf5Writer file(file_path, description_format, description_version);
     file.attribute("name", name);
     file.attribute("source_fingerprint", source_fingerprint(KeptPiece::descriptions));
@@ -78,7 +91,7 @@ void write_description(const std::string& file_path, const MeshDescription& desc
                  std::to_string(options.seed) + ", " + std::to_string(options.oversegmentations) + " x " +
                  std::to_string(options.patches) + " patches");
     write_record(file, "", description);
-    write_descriptors(file, description);
+    write_descriptors(file, described.descriptors);
     std::vector<std::string> warnings;
     for (const std::string& warning : description.warnings)
         warnings.push_back(replaced(warning, path, path_mark));
@@ -86,18 +99,19 @@ void write_description(const std::string& file_path, const MeshDescription& desc
     file.commit();
 }
 
-MeshDescription read_description(const std::string& file_path, int mesh, const std::string& name,
-                                 const std::string& path) {
+DescribedMesh read_description(const std::string& file_path, int mesh, const std::string& name,
+                               const std::string& path) {
     const Hdf5Reader file(file_path, description_format, description_version);
-    MeshDescription description;
+    DescribedMesh described;
+    MeshDescription& description = described.mesh;
     description.mesh = mesh;
     description.key = hash_text(name);
     read_record(file, "", description);
     index_incidence(description.graph);
-    read_descriptors(file, description);
+    described.descriptors = read_descriptors(file);
     for (const std::string& warning : file.read_texts("warnings"))
         description.warnings.push_back(replaced(warning, path_mark, path));
-    return description;
+    return described;
 }
 
 }  // namespace coseg

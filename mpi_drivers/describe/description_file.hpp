@@ -16,13 +16,13 @@ ContentHash description_key(std::string_view bytes, const std::string& name, con
 
 /// Writes all of it but the polygons of the input, which stand in the mesh's own file. `path`: of that file; it is left
 /// out of the warnings. Throws Error(output).
-void write_description(const std::string& file, const MeshDescription& description, const std::string& name,
+void write_description(const std::string& file, const DescribedMesh& described, const std::string& name,
                        const std::string& path, const DescriptionOptions& options);
 
 /// The description as written, with `mesh` and `key` of this collection and without `input`.
 /// Throws Error(input) for a file that is damaged or holds something else.
-MeshDescription read_description(const std::string& file, int mesh, const std::string& name,
-                                 const std::string& path);
+DescribedMesh read_description(const std::string& file, int mesh, const std::string& name,
+                               const std::string& path);
 
 inline constexpr const char* description_format = "coseg mesh description";
 inline constexpr int description_version = 2;

@@ -3,11 +3,12 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "mpi_drivers/describe/mesh_stage.hpp"
-#include "mpi_drivers/options/run_options.hpp"
-#include "solvers/partition/partition_choice.hpp"
+#include "mpi_drivers/options/stage_options.hpp"
+#include "src/descriptors/descriptor_table.hpp"
 #include "src/histograms/feature_matrices.hpp"
 #include "src/histograms/feature_range.hpp"
 #include "src/parallel/comm.hpp"
@@ -16,30 +17,27 @@
 
 namespace coseg {
 
-/// What turns descriptors of faces into bins, so that shapes that come later fall into the same ones.
-struct FeatureBins {
-    std::vector<FeatureRange> ranges;  ///< of the scalar features of positive weight, in the order of Feature
-    std::vector<Eigen::MatrixXf> words;  ///< per set: centres of the shape-context words, d x words
-};
+/// What turns the values of faces into bins, so that shapes that come later fall into the same ones: a range for numbers;
+/// for vectors the centres of the words, d x words for every set.
+using FeatureBins = std::variant<FeatureRange, std::vector<Eigen::MatrixXf>>;
 
 struct PatchFeatures {
-    /// Features with positive weight: bins x N each (shape contexts: bins word_sets x N), times the weight; once a node.
+    /// Features with positive weight: bins x N each (words: bins word_sets x N), times the weight; once a node.
     FeatureMatrices histograms;
-    std::vector<int> feature_of;     ///< which Feature each of them is
-    std::vector<double> patch_area;  ///< N, each mesh's over-segmentation sums to 1
+    HistogramScaling scaling = HistogramScaling::square_root;
+    std::vector<Descriptor> descriptors;  ///< what each of them describes, with the weight of the run
+    std::vector<FeatureBins> bins;        ///< of each of them
+    std::vector<double> patch_area;       ///< N, each mesh's over-segmentation sums to 1
     Eigen::Matrix3Xd positions;      ///< 3 x N, see patch_positions; 3 x 0 where what is cut are not patches
-    /// What the choice of the partition looks at, where the histograms are gone before it; see choice_descriptors.
-    std::vector<ChoiceDescriptor> choice;
-    std::vector<NamedRange> ranges;  ///< the bin range of every scalar feature, for the report
-    FeatureBins bins;
+    std::vector<NamedRange> ranges;  ///< the bin range of every feature of numbers, for the report
 };
 
-/// given: the bins of an earlier collection, which are kept; null: they are made from this one. Collective; the same bits on
-/// every rank and on any number of ranks. Releases the descriptors of `collection`, which no later stage looks at.
-PatchFeatures patch_features(const Comm& comm, Collection& collection, const RunOptions& options,
-                             const FeatureBins* given = nullptr);
-
-/// Says so where every rank has features of its own, for want of shared memory.
-void warn_of_copies(const PatchFeatures& features, const StageLog& log);
+/// descriptors: each is freed as soon as its feature is made; rows without a weight are left out.
+/// given: the bins of an earlier collection, one for each feature, which are kept; null: they are made from this one.
+/// The log has the stage "features", and a warning where every rank has features of its own, for want of shared memory.
+/// Collective; the same bits on every rank and on any number of ranks.
+PatchFeatures patch_features(const Comm& comm, const Collection& collection,
+                             CollectionDescriptors descriptors, const FeatureOptions& options,
+                             const std::vector<FeatureBins>* given, StageLog& log);
 
 }  // namespace coseg

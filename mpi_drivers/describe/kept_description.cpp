@@ -8,7 +8,6 @@
 #include "io/mesh_files/mesh_reader.hpp"
 #include "mpi_drivers/describe/description_file.hpp"
 #include "src/base/error.hpp"
-#include "src/base/index.hpp"
 
 namespace coseg {
 
@@ -18,22 +17,20 @@ using Clock = std::chrono::steady_clock;
 
 void add_reading_time(MeshDescription& description, Clock::time_point start) {
     const Clock::time_point now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - start).count();
-    description.step_seconds[at(DescribeStep::read)] += seconds;
-    description.seconds += seconds;
-    description.step_spans.push_back({DescribeStep::read, start, now});
+    description.seconds += std::chrono::duration<double>(now - start).count();
+    description.step_spans.push_back({"read", start, now});
 }
 
 /// Nothing if there is no file; a damaged one leaves a sentence in `warning`.
-std::optional<MeshDescription> found_description(const std::string& file, int mesh, const MeshEntry& entry,
-                                                 const StateFolder& folder, std::string& warning) {
+std::optional<DescribedMesh> found_description(const std::string& file, int mesh, const MeshEntry& entry,
+                                               const StateFolder& folder, std::string& warning) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return std::nullopt;
     try {
-        MeshDescription description = read_description(file, mesh, entry.name, entry.path);
-        description.reused = true;
+        DescribedMesh described = read_description(file, mesh, entry.name, entry.path);
+        described.mesh.reused = true;
         mark_as_used(file);
-        return description;
+        return described;
     } catch (const Error& error) {
         warning = std::string(error.what()) + "; it is set aside as " + folder.set_aside(file) + " and " +
                   entry.path + " is described anew";
@@ -43,22 +40,22 @@ std::optional<MeshDescription> found_description(const std::string& file, int me
 
 }  // namespace
 
-MeshDescription kept_description(int mesh, const MeshEntry& entry, const DescriptionOptions& options,
-                                 const StateFolder* folder) {
+DescribedMesh kept_description(int mesh, const MeshEntry& entry, const DescriptionOptions& options,
+                               const StateFolder* folder) {
     const Clock::time_point start = Clock::now();
     const std::string bytes = read_file(entry.path);
     if (folder == nullptr) return describe_mesh(mesh, entry.name, entry.path, bytes, options);
     const std::string file = folder->mesh_file(description_key(bytes, entry.name, entry.path, options));
     std::string warning;
-    if (std::optional<MeshDescription> found = found_description(file, mesh, entry, *folder, warning)) {
-        found->input = parse_mesh(bytes, entry.path);
-        add_reading_time(*found, start);
+    if (std::optional<DescribedMesh> found = found_description(file, mesh, entry, *folder, warning)) {
+        found->mesh.input = parse_mesh(bytes, entry.path);
+        add_reading_time(found->mesh, start);
         return std::move(*found);
     }
-    MeshDescription made = describe_mesh(mesh, entry.name, entry.path, bytes, options);
+    DescribedMesh made = describe_mesh(mesh, entry.name, entry.path, bytes, options);
     make_parent_folders(file);
     write_description(file, made, entry.name, entry.path, options);
-    if (!warning.empty()) made.warnings.push_back(warning);
+    if (!warning.empty()) made.mesh.warnings.push_back(warning);
     return made;
 }
 

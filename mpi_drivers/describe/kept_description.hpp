@@ -10,7 +10,7 @@ namespace coseg {
 /// The same description, to the bit, whether it was kept or not; `reused` tells. folder: none keeps nothing.
 /// A damaged file is set aside and named in a warning of the description. Serial. Throws Error(input) if the mesh cannot
 /// be used, Error(output) if its description cannot be written.
-MeshDescription kept_description(int mesh, const MeshEntry& entry, const DescriptionOptions& options,
-                                 const StateFolder* folder);
+DescribedMesh kept_description(int mesh, const MeshEntry& entry, const DescriptionOptions& options,
+                               const StateFolder* folder);
 
 }  // namespace coseg

@@ -11,13 +11,8 @@
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 #include "src/base/text.hpp"
-#include "src/descriptors/average_geodesic.hpp"
-#include "src/descriptors/conformal_factor.hpp"
-#include "src/descriptors/gaussian_curvature.hpp"
+#include "src/descriptors/descriptor_context.hpp"
 #include "src/descriptors/minimum_curvature.hpp"
-#include "src/descriptors/shape_context.hpp"
-#include "src/descriptors/shape_diameter.hpp"
-#include "src/geodesics/geodesic.hpp"
 #include "src/remesh/face_suitability.hpp"
 #include "src/remesh/mapped_remesh.hpp"
 #include "src/remesh/midpoint_refinement.hpp"
@@ -41,11 +36,9 @@ constexpr double most_overlong_area = 0.7;
 class StepClock {
   public:
     explicit StepClock(MeshDescription& description) : description_(description) {}
-    void end_of(DescribeStep step) {
+    void end_of(const char* step) {
         const Clock::time_point now = Clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        description_.step_seconds[at(step)] += seconds;
-        description_.seconds += seconds;
+        description_.seconds += std::chrono::duration<double>(now - last_).count();
         description_.step_spans.push_back({step, last_, now});
         last_ = now;
     }
@@ -92,48 +85,27 @@ TriMesh working_mesh(MeshDescription& description, const std::string& path,
     description.map = std::move(repaired.map);
     description.overlong_area = overlong_area_share(repaired.mesh, options.patches);
     const bool unsuitable = description.overlong_area > most_overlong_area;
-    if (options.remesh == "always") remesh(repaired.mesh, description, path, options.patches);
-    if (options.remesh == "auto" && unsuitable)
+    if (options.remesh == RemeshMode::always) remesh(repaired.mesh, description, path, options.patches);
+    if (options.remesh == RemeshMode::automatic && unsuitable)
         remesh_if_possible(repaired.mesh, description, path, options.patches);
     refine_if_coarse(repaired.mesh, description, path, options.patches);
     scale_to_unit_area(repaired.mesh);
     return std::move(repaired.mesh);
 }
 
-Eigen::VectorXd& descriptor(MeshDescription& description, Feature feature) {
-    return description.descriptors[at(feature)];
-}
-
-void describe_faces(MeshDescription& description, const TriMesh& mesh, const DescriptionOptions& options,
-                    StepClock& clock) {
-    const FaceGeometry& geometry = description.geometry;
-    descriptor(description, Feature::gaussian_curvature) = gaussian_curvature(mesh, geometry);
-    clock.end_of(DescribeStep::curvature);
-    descriptor(description, Feature::shape_diameter) = shape_diameter(mesh, geometry, description.graph);
-    clock.end_of(DescribeStep::shape_diameter);
-    descriptor(description, Feature::conformal_factor) = conformal_factor(mesh, geometry);
-    clock.end_of(DescribeStep::conformal_factor);
-    const GeodesicTable table = geodesic_table(mesh, geometry, description.graph, options.geodesic_samples,
-                                               hash_words({options.seed, description.key}));
-    clock.end_of(DescribeStep::geodesics);
-    descriptor(description, Feature::average_geodesic) = average_geodesic(table);
-    description.shape_context = shape_context(table, geometry);
-    clock.end_of(DescribeStep::contexts);
-}
-
 void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const DescriptionOptions& options,
                       StepClock& clock) {
     const Eigen::VectorXd curvature = minimum_curvature(mesh, description.geometry);
-    clock.end_of(DescribeStep::curvature);
+    clock.end_of("curvature");
     for (int s = 0; s < options.oversegmentations; ++s) {
         const std::uint64_t seed = hash_words({options.seed, description.key, static_cast<std::uint64_t>(s)});
         const OversegmentationOptions choice{.patches = options.patches, .noise = options.cut_noise};
         description.patches.push_back(oversegment(description.geometry, description.graph, choice, seed));
-        clock.end_of(DescribeStep::oversegmentation);
+        clock.end_of("oversegmentation");
         const std::vector<int>& patches = description.patches.back();
         description.patch_counts.push_back(*std::max_element(patches.begin(), patches.end()) + 1);
         description.neighbors.push_back(patch_neighbors(description.graph, patches, curvature));
-        clock.end_of(DescribeStep::relations);
+        clock.end_of("relations");
     }
     for (int a = 0; a < options.oversegmentations; ++a) {
         for (int b = a + 1; b < options.oversegmentations; ++b) {
@@ -143,51 +115,56 @@ void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const D
                 {a, b, patch_overlaps(description.geometry, patches_a, patches_b)});
         }
     }
-    clock.end_of(DescribeStep::relations);
+    clock.end_of("relations");
 }
 
 /// All but the patches; returns the working mesh.
-TriMesh describe_surface(MeshDescription& description, int mesh, const std::string& name,
+TriMesh describe_surface(DescribedMesh& described, int number, const std::string& name,
                          const std::string& path, std::string_view bytes, const DescriptionOptions& options) {
-    StepClock clock(description);
-    description.mesh = mesh;
-    description.key = hash_text(name);
-    description.input = parse_mesh(bytes, path);
-    clock.end_of(DescribeStep::read);
-    TriMesh working = working_mesh(description, path, options);
-    clock.end_of(DescribeStep::repair);
-    description.geometry = face_geometry(working);
-    description.graph = dual_graph(working, description.geometry);
-    clock.end_of(DescribeStep::dual_graph);
-    describe_faces(description, working, options, clock);
+    MeshDescription& mesh = described.mesh;
+    StepClock clock(mesh);
+    mesh.mesh = number;
+    mesh.key = hash_text(name);
+    mesh.input = parse_mesh(bytes, path);
+    clock.end_of("read");
+    TriMesh working = working_mesh(mesh, path, options);
+    clock.end_of("repair");
+    mesh.geometry = face_geometry(working);
+    mesh.graph = dual_graph(working, mesh.geometry);
+    clock.end_of("dual_graph");
+    DescriptorContext context(working, mesh.geometry, mesh.graph, options.geodesic_samples,
+                              hash_words({options.seed, mesh.key}),
+                              [&clock](const char* step) { clock.end_of(step); });
+    described.descriptors = face_descriptors(context, options.descriptors);
     return working;
 }
 
 }  // namespace
 
-DescriptionOptions description_options(const RunOptions& options) {
-    return {.seed = options.seed,
-            .remesh = options.remesh,
-            .patches = options.patches,
-            .oversegmentations = options.oversegmentations,
-            .cut_noise = options.cut_noise,
-            .geodesic_samples = options.geodesic_samples};
+std::vector<std::string> describe_steps(const DescriptionOptions& options) {
+    std::vector<std::string> steps = {"read", "repair", "dual_graph"};
+    const std::vector<std::string> of_descriptors = descriptor_steps(options.descriptors);
+    steps.insert(steps.end(), of_descriptors.begin(), of_descriptors.end());
+    for (const char* step : {"curvature", "oversegmentation", "relations"}) {
+        if (std::find(steps.begin(), steps.end(), step) == steps.end()) steps.emplace_back(step);
+    }
+    return steps;
 }
 
-MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
-                              std::string_view bytes, const DescriptionOptions& options) {
-    MeshDescription description;
-    const TriMesh working = describe_surface(description, mesh, name, path, bytes, options);
-    StepClock clock(description);
-    cut_into_patches(description, working, options, clock);
-    return description;
+DescribedMesh describe_mesh(int mesh, const std::string& name, const std::string& path,
+                            std::string_view bytes, const DescriptionOptions& options) {
+    DescribedMesh described;
+    const TriMesh working = describe_surface(described, mesh, name, path, bytes, options);
+    StepClock clock(described.mesh);
+    cut_into_patches(described.mesh, working, options, clock);
+    return described;
 }
 
-MeshDescription describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
-                                    const DescriptionOptions& options) {
-    MeshDescription description;
-    describe_surface(description, mesh, name, path, read_file(path), options);
-    return description;
+DescribedMesh describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
+                                  const DescriptionOptions& options) {
+    DescribedMesh described;
+    describe_surface(described, mesh, name, path, read_file(path), options);
+    return described;
 }
 
 }  // namespace coseg

@@ -1,8 +1,7 @@
 #pragma once
-// All that is computed from one mesh alone: its patches, the descriptors of its faces, how patches touch and overlap.
+// All that is computed from one mesh alone: its patches, how they touch and overlap, and the descriptors of its faces.
 
 #include <Eigen/Core>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -10,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "mpi_drivers/options/run_options.hpp"
-#include "src/descriptors/feature.hpp"
+#include "mpi_drivers/options/stage_options.hpp"
+#include "src/descriptors/descriptor_table.hpp"
 #include "src/mesh/dual_graph.hpp"
 #include "src/mesh/face_geometry.hpp"
 #include "src/mesh/polygon_mesh.hpp"
@@ -22,47 +21,11 @@
 namespace coseg {
 
 /// What the time of a description is spent on, in the order of the work.
-enum class DescribeStep : int {
-    read,
-    repair,
-    dual_graph,
-    curvature,
-    shape_diameter,
-    conformal_factor,
-    geodesics,
-    contexts,
-    oversegmentation,
-    relations
-};
-inline constexpr int describe_step_total = 10;
-inline constexpr std::array<const char*, describe_step_total> describe_step_names = {
-    "read",      "repair",   "dual_graph",       "curvature", "shape_diameter", "conformal_factor",
-    "geodesics", "contexts", "oversegmentation", "relations"};
-
-/// The options that a description depends on, and no others: what describe_mesh uses must stand here, because the
-/// descriptions in a state folder are found by it (description_file.hpp).
-struct DescriptionOptions {
-    std::uint64_t seed = 1;
-    std::string remesh = "auto";
-    int patches = 50;
-    int oversegmentations = 3;
-    double cut_noise = 0.3;
-    int geodesic_samples = 300;
-    static constexpr auto fields() {
-        return std::tuple(field("seed", &DescriptionOptions::seed),
-                          field("remesh", &DescriptionOptions::remesh),
-                          field("patches", &DescriptionOptions::patches),
-                          field("oversegmentations", &DescriptionOptions::oversegmentations),
-                          field("cut-noise", &DescriptionOptions::cut_noise),
-                          field("geodesic-samples", &DescriptionOptions::geodesic_samples));
-    }
-};
-
-DescriptionOptions description_options(const RunOptions& options);
+std::vector<std::string> describe_steps(const DescriptionOptions& options);
 
 /// A stretch of work on one step; a step may have several.
 struct StepSpan {
-    DescribeStep step = DescribeStep::read;
+    std::string step;
     std::chrono::steady_clock::time_point start;
     std::chrono::steady_clock::time_point end;
 };
@@ -87,9 +50,6 @@ struct MeshDescription {
     bool remeshed = false;
     FaceGeometry geometry;  ///< of the working mesh, area 1
     DualGraph graph;
-    std::array<Eigen::VectorXd, feature_total>
-        descriptors;                        ///< F each; the shape context's entry stays empty
-    Eigen::MatrixXf shape_context;          ///< bins x F
     std::vector<std::vector<int>> patches;  ///< per over-segmentation: patch of each working face
     std::vector<int> patch_counts;          ///< per over-segmentation
     std::vector<std::vector<PatchNeighbors>> neighbors;  ///< per over-segmentation
@@ -97,7 +57,6 @@ struct MeshDescription {
     std::vector<std::string> warnings;
     bool reused = false;  ///< read from a state folder
     double seconds = 0.0;
-    std::array<double, describe_step_total> step_seconds{};
     std::vector<StepSpan> step_spans;  ///< ascending in time, disjoint
     /// What a state folder keeps; the rest belongs to a run or stands in the mesh's own file.
     static constexpr auto fields() {
@@ -105,24 +64,28 @@ struct MeshDescription {
             local(&MeshDescription::mesh), local(&MeshDescription::key), local(&MeshDescription::input),
             field("map", &MeshDescription::map), field("overlong_area", &MeshDescription::overlong_area),
             field("remeshed", &MeshDescription::remeshed), field("geometry", &MeshDescription::geometry),
-            field("graph", &MeshDescription::graph), local(&MeshDescription::descriptors),
-            local(&MeshDescription::shape_context), field("patches", &MeshDescription::patches),
+            field("graph", &MeshDescription::graph), field("patches", &MeshDescription::patches),
             field("patch_counts", &MeshDescription::patch_counts),
             field("neighbors", &MeshDescription::neighbors), field("overlaps", &MeshDescription::overlaps),
             local(&MeshDescription::warnings), local(&MeshDescription::reused),
-            local(&MeshDescription::seconds), local(&MeshDescription::step_seconds),
-            local(&MeshDescription::step_spans));
+            local(&MeshDescription::seconds), local(&MeshDescription::step_spans));
     }
+};
+
+/// A mesh as the stages from the patches on see it, and the values that become its features.
+struct DescribedMesh {
+    MeshDescription mesh;
+    FaceDescriptors descriptors;  ///< of the working faces
 };
 
 /// Repairs, over-segments and describes one mesh. bytes: the content of the file at `path`. Serial; a function of the
 /// bytes, the name, the extension of the path and the options alone, but for the path in warnings.
 /// Throws Error(input) if the file cannot be used.
-MeshDescription describe_mesh(int mesh, const std::string& name, const std::string& path,
-                              std::string_view bytes, const DescriptionOptions& options);
+DescribedMesh describe_mesh(int mesh, const std::string& name, const std::string& path,
+                            std::string_view bytes, const DescriptionOptions& options);
 
 /// The same from the file itself, without patches, neighbours and overlaps.
-MeshDescription describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
-                                    const DescriptionOptions& options);
+DescribedMesh describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
+                                  const DescriptionOptions& options);
 
 }  // namespace coseg

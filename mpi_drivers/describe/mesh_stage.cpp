@@ -1,10 +1,13 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "mpi_drivers/describe/collection_log.hpp"
 #include "mpi_drivers/describe/kept_description.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -27,7 +30,7 @@ struct Failure {
 };
 
 struct Attempt {
-    std::vector<MeshDescription> described;  ///< numbered by entry
+    std::vector<DescribedMesh> described;  ///< numbered by entry
     std::vector<Failure> failed;
 };
 
@@ -60,29 +63,40 @@ bool attempt_one(Attempt& attempt, int number, const MeshEntry& entry, const Des
 /// The mesh and its steps as spans of the stage; a mesh that failed has no steps.
 void trace_mesh(const Attempt& attempt, int number, const MeshEntry& entry, StageLog::Clock::time_point start,
                 StageLog& log) {
-    if (!attempt.described.empty() && attempt.described.back().mesh == number) {
-        for (const StepSpan& span : attempt.described.back().step_spans)
-            log.span(describe_step_names[at(span.step)], "step", span.start, span.end);
+    if (!attempt.described.empty() && attempt.described.back().mesh.mesh == number) {
+        for (const StepSpan& span : attempt.described.back().mesh.step_spans)
+            log.span(span.step, "step", span.start, span.end);
     }
     log.span(entry.name, "mesh", start, StageLog::Clock::now());
 }
 
 enum class Keep { all, nothing };
 
-void forget_content(MeshDescription& description) {
-    MeshDescription bare;
-    bare.mesh = description.mesh;
-    bare.reused = description.reused;
-    bare.warnings = std::move(description.warnings);
-    bare.seconds = description.seconds;
-    bare.step_seconds = description.step_seconds;
-    bare.step_spans = std::move(description.step_spans);
-    description = std::move(bare);
+/// What is told of a mesh whose description went into the state folder.
+DescribedMesh without_content(DescribedMesh&& described) {
+    MeshDescription& mesh = described.mesh;
+    DescribedMesh bare;
+    bare.mesh.mesh = mesh.mesh;
+    bare.mesh.reused = mesh.reused;
+    bare.mesh.warnings = std::move(mesh.warnings);
+    bare.mesh.seconds = mesh.seconds;
+    bare.mesh.step_spans = std::move(mesh.step_spans);
+    return bare;
+}
+
+/// What this rank spent on each step of its meshes.
+void log_steps(const Attempt& attempt, const DescriptionOptions& options, StageLog& log) {
+    std::map<std::string, double> seconds;
+    for (const DescribedMesh& described : attempt.described) {
+        for (const StepSpan& span : described.mesh.step_spans)
+            seconds[span.step] += std::chrono::duration<double>(span.end - span.start).count();
+    }
+    for (const std::string& step : describe_steps(options)) log.step(step, seconds[step]);
 }
 
 Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& entries,
-                              const RunOptions& options, const RunState* state, Keep keep, StageLog& log) {
-    const DescriptionOptions description = description_options(options);
+                              const DescriptionOptions& options, const RunState* state, Keep keep,
+                              StageLog& log) {
     const StateFolder* folder = state != nullptr ? &state->folder() : nullptr;
     const std::vector<int> order = schedule(entries);
     const auto total = static_cast<std::int64_t>(entries.size());
@@ -93,20 +107,16 @@ Attempt describe_dealt_meshes(const Comm& comm, const std::vector<MeshEntry>& en
         const int number = order[at(k)];
         const MeshEntry& entry = entries[at(number)];
         const StageLog::Clock::time_point start = StageLog::Clock::now();
-        const bool goes_on = attempt_one(attempt, number, entry, description, folder);
+        const bool goes_on = attempt_one(attempt, number, entry, options, folder);
         trace_mesh(attempt, number, entry, start, log);
         if (goes_on && keep == Keep::nothing && !attempt.described.empty())
-            forget_content(attempt.described.back());
+            attempt.described.back() = without_content(std::move(attempt.described.back()));
         if (!goes_on || (state != nullptr && state->stop_is_raised())) counter.exhaust();
     }
     log.end_of_own_work();
-    for (std::size_t s = 0; s < describe_step_names.size(); ++s) {
-        double seconds = 0.0;
-        for (const MeshDescription& mesh : attempt.described) seconds += mesh.step_seconds[s];
-        log.step(describe_step_names[s], seconds);
-    }
+    log_steps(attempt, options, log);
     std::sort(attempt.described.begin(), attempt.described.end(),
-              [](const MeshDescription& a, const MeshDescription& b) { return a.mesh < b.mesh; });
+              [](const DescribedMesh& a, const DescribedMesh& b) { return a.mesh.mesh < b.mesh.mesh; });
     return attempt;
 }
 
@@ -141,11 +151,11 @@ void refuse_if_unusable(const std::vector<Failure>& failures, std::size_t entrie
 }
 
 /// Renumbers the usable meshes of this rank: an entry's number less the unusable entries before it.
-void renumber(std::vector<MeshDescription>& described, const std::vector<Failure>& failures) {
+void renumber(std::vector<DescribedMesh>& described, const std::vector<Failure>& failures) {
     auto failure = failures.begin();  // both ascend
-    for (MeshDescription& description : described) {
-        while (failure != failures.end() && failure->entry < description.mesh) ++failure;
-        description.mesh -= static_cast<int>(failure - failures.begin());
+    for (DescribedMesh& one : described) {
+        while (failure != failures.end() && failure->entry < one.mesh.mesh) ++failure;
+        one.mesh.mesh -= static_cast<int>(failure - failures.begin());
     }
 }
 
@@ -199,16 +209,18 @@ std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::stri
 }
 
 DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry>& entries,
-                                   const RunOptions& options, const RunState& state, StageLog& log) {
+                                   const DescriptionOptions& options, bool strict, const RunState& state,
+                                   StageLog& log) {
     const Attempt attempt = describe_dealt_meshes(comm, entries, options, &state, Keep::nothing, log);
     const std::vector<Failure> failures = gather_failures(comm, attempt);
     refuse_if_unwritable(failures);
     end_if_asked(comm, state, attempt, entries.size());
-    if (!failures.empty()) refuse_if_unusable(failures, entries.size(), options.strict);
+    if (!failures.empty()) refuse_if_unusable(failures, entries.size(), strict);
     DescribeTotals totals;
     std::vector<std::string> warnings;
     std::int64_t reused = 0;
-    for (const MeshDescription& mesh : attempt.described) {
+    for (const DescribedMesh& described : attempt.described) {
+        const MeshDescription& mesh = described.mesh;
         warnings.insert(warnings.end(), mesh.warnings.begin(), mesh.warnings.end());
         if (mesh.reused) ++reused;
     }
@@ -220,17 +232,23 @@ DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry
     return totals;
 }
 
-Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
-                               const RunOptions& options, const RunState* state, StageLog& log) {
+DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                        const DescriptionOptions& options, bool strict, const RunState* state,
+                                        StageLog& log) {
+    log.begin("describe");
     Attempt attempt = describe_dealt_meshes(comm, entries, options, state, Keep::all, log);
     const std::vector<Failure> failures = gather_failures(comm, attempt);
     refuse_if_unwritable(failures);
     if (state != nullptr) end_if_asked(comm, *state, attempt, entries.size());
-    refuse_if_unusable(failures, entries.size(), options.strict);
+    refuse_if_unusable(failures, entries.size(), strict);
 
-    Collection collection;
+    DescribedCollection result;
+    Collection& collection = result.collection;
     renumber(attempt.described, failures);
-    collection.local = std::move(attempt.described);
+    for (DescribedMesh& described : attempt.described) {
+        collection.local.push_back(std::move(described.mesh));
+        result.descriptors.of_mesh.push_back(std::move(described.descriptors));
+    }
     auto failure = failures.begin();
     for (std::size_t k = 0; k < entries.size(); ++k) {
         if (failure != failures.end() && failure->entry == static_cast<int>(k)) {
@@ -244,7 +262,10 @@ Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& e
         }
     }
     share_facts(comm, collection, options.oversegmentations);
-    return collection;
+    result.descriptors.table = descriptor_table();
+    log.end(described_summary(collection));
+    warn_of_meshes(collection, log);
+    return result;
 }
 
 }  // namespace coseg

@@ -6,7 +6,7 @@
 
 #include "io/mesh_files/mesh_list.hpp"
 #include "mpi_drivers/describe/mesh_description.hpp"
-#include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/options/stage_options.hpp"
 #include "mpi_drivers/process/run_state.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
@@ -22,16 +22,29 @@ struct Collection {
     PatchNumbering numbering{1, {}};     ///< all ranks
 };
 
+/// The values of the faces that the features are made of.
+struct CollectionDescriptors {
+    std::vector<Descriptor> table;         ///< descriptor_table(); see weighted_descriptors
+    std::vector<FaceDescriptors> of_mesh;  ///< of collection.local, in its order; `row` is of `table`
+};
+
+/// What the first stage hands over.
+struct DescribedCollection {
+    Collection collection;
+    CollectionDescriptors descriptors;
+};
+
 /// The meshes that a command line names, in the collection's order, on all ranks. Rank 0 alone asks the file system.
 /// Collective; throws AgreedError(input) as expand_mesh_list does.
 std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs);
 
-/// Collective. Throws AgreedError(input) if no mesh can be used, or with options.strict if any cannot. With a state (may
+/// Collective. Throws AgreedError(input) if no mesh can be used, or if `strict` and any cannot. With a state (may
 /// be null) descriptions are taken from its folder and kept there; throws AgreedError(output) if one cannot be
 /// written, AgreedError(checkpointed) if a rank has been asked to end.
-/// What each rank computes depends on the schedule; the result, apart from `owner` and `seconds`, does not.
-Collection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
-                               const RunOptions& options, const RunState* state, StageLog& log);
+/// The log has the stage "describe". What each rank computes depends on the schedule; the result, apart from `owner` and `seconds`, does not.
+DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                        const DescriptionOptions& options, bool strict, const RunState* state,
+                                        StageLog& log);
 
 struct DescribeTotals {
     std::int64_t described = 0;
@@ -42,6 +55,7 @@ struct DescribeTotals {
 
 /// Descriptions into the folder of `state`, none of them kept in memory. Collective; throws as describe_collection.
 DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry>& entries,
-                                   const RunOptions& options, const RunState& state, StageLog& log);
+                                   const DescriptionOptions& options, bool strict, const RunState& state,
+                                   StageLog& log);
 
 }  // namespace coseg

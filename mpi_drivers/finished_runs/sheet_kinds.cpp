@@ -156,10 +156,11 @@ std::string as_words(std::string name) {
 }
 
 DrawnKind drawn_descriptor(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
-                           std::size_t feature) {
+                           int row) {
     std::vector<std::vector<double>> values;
     agree(comm, [&] {
-        for (const LabelledMesh& shape : shapes) values.push_back(face_descriptors(run, shape)[feature]);
+        for (const LabelledMesh& shape : shapes)
+            values.push_back(shown_descriptors(run, shape, {row}).front());
     });
     const ValueRange range = agreed_range(comm, shapes, values, run.shapes.size());
     DrawnKind kind;
@@ -168,7 +169,7 @@ DrawnKind drawn_descriptor(const Comm& comm, const FinishedRun& run, const std::
         for (const double value : values[k]) colors.push_back(scale_color(value, range.low, range.high));
         kind.shapes.push_back(drawn(shapes[k], colors));
     }
-    kind.heading = {.title = as_words(feature_names[feature]),
+    kind.heading = {.title = as_words(descriptor_table()[at(row)].name),
                     .subtitle = counted(run.shapes.size(), "shape", "shapes"),
                     .legend = {},
                     .scale = ColorScaleBar{significant(range.low), significant(range.high)}};
@@ -178,8 +179,9 @@ DrawnKind drawn_descriptor(const Comm& comm, const FinishedRun& run, const std::
 }  // namespace
 
 std::vector<std::string> sheet_kinds() {
-    std::vector<std::string> kinds = {"parts", "patches", "truth", "errors"};
-    kinds.insert(kinds.end(), feature_names.begin(), feature_names.end());
+    std::vector<std::string> kinds = names_of<SheetColoring>();
+    const std::vector<std::string> descriptors = descriptor_names();
+    kinds.insert(kinds.end(), descriptors.begin(), descriptors.end());
     return kinds;
 }
 
@@ -201,36 +203,55 @@ std::vector<Color> colors_of(const std::vector<int>& labels) {
     return colors;
 }
 
+namespace {
+
+/// Collective for the truth, whose labels the legend lists.
+SheetHeading coloring_heading(const Comm& comm, const FinishedRun& run,
+                              const std::vector<LabelledMesh>& shapes, SheetColoring coloring,
+                              const PartKey& key) {
+    SheetHeading heading = parts_heading(run.part_area, static_cast<int>(run.shapes.size()));
+    if (coloring == SheetColoring::parts) {
+        name_parts(heading.legend, run.part_area, key);
+        return heading;
+    }
+    heading.title = to_string(coloring);
+    heading.legend.clear();
+    if (coloring == SheetColoring::truth) heading.legend = truth_legend(key, labels_in_truth(comm, shapes));
+    if (coloring == SheetColoring::errors)
+        heading.legend = {{right, "right"}, {wrong, "wrong"}, {without_truth, "no truth"}};
+    return heading;
+}
+
+DrawnShape drawn_coloring(const LabelledMesh& shape, SheetColoring coloring,
+                          const std::vector<int>& label_of_part) {
+    switch (coloring) {
+        case SheetColoring::parts:
+            break;
+        case SheetColoring::patches:
+            return drawn(shape, colors_of(shape.patch));
+        case SheetColoring::truth:
+            return drawn(shape, truth_colors(shape, label_of_part));
+        case SheetColoring::errors:
+            return drawn_errors(shape, label_of_part);
+    }
+    return drawn(shape, colors_of(shape.part));
+}
+
+}  // namespace
+
 DrawnKind drawn_kind(const Comm& comm, const FinishedRun& run, const std::vector<LabelledMesh>& shapes,
                      const std::string& kind, const PartKey& key) {
-    const auto feature = std::find(feature_names.begin(), feature_names.end(), kind);
-    if (feature != feature_names.end())
-        return drawn_descriptor(comm, run, shapes, static_cast<std::size_t>(feature - feature_names.begin()));
-    DrawnKind result;
-    result.heading = parts_heading(run.part_area, static_cast<int>(run.shapes.size()));
-    if (kind == "parts") {
-        name_parts(result.heading.legend, run.part_area, key);
-    } else if (kind == "patches") {
-        result.heading.title = "patches";
-        result.heading.legend.clear();
-    } else if (kind == "truth") {
-        result.heading.title = "truth";
-        result.heading.legend = truth_legend(key, labels_in_truth(comm, shapes));
-    } else if (kind == "errors") {
-        result.heading.title = "errors";
-        result.heading.legend = {{right, "right"}, {wrong, "wrong"}, {without_truth, "no truth"}};
+    const std::optional<SheetColoring> coloring = named<SheetColoring>(kind);
+    if (!coloring) {
+        const std::vector<std::string> descriptors = descriptor_names();
+        const auto row = std::find(descriptors.begin(), descriptors.end(), kind);
+        return drawn_descriptor(comm, run, shapes, static_cast<int>(row - descriptors.begin()));
     }
+    DrawnKind result;
+    result.heading = coloring_heading(comm, run, shapes, *coloring, key);
     agree(comm, [&] {
-        for (const LabelledMesh& shape : shapes) {
-            if (kind == "truth") {
-                result.shapes.push_back(drawn(shape, truth_colors(shape, key.label_of_part)));
-            } else if (kind == "errors") {
-                result.shapes.push_back(drawn_errors(shape, key.label_of_part));
-            } else {
-                result.shapes.push_back(
-                    drawn(shape, colors_of(kind == "patches" ? shape.patch : shape.part)));
-            }
-        }
+        for (const LabelledMesh& shape : shapes)
+            result.shapes.push_back(drawn_coloring(shape, *coloring, key.label_of_part));
     });
     return result;
 }

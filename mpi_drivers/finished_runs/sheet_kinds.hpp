@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "io/data_files/name_file.hpp"
-#include "mpi_drivers/finished_runs/face_descriptors.hpp"
 #include "mpi_drivers/finished_runs/finished_shapes.hpp"
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
+#include "mpi_drivers/finished_runs/shown_descriptors.hpp"
 
 namespace coseg {
 

@@ -39,6 +39,20 @@ UpAxis agreed_up(const Comm& comm, const std::vector<const DrawnShape*>& looked)
     return sums[2] >= sums[0] ? UpAxis::z : UpAxis::x;
 }
 
+UpAxis chosen_up(const Comm& comm, const std::vector<const DrawnShape*>& looked, UpChoice choice) {
+    switch (choice) {
+        case UpChoice::automatic:
+            break;
+        case UpChoice::x:
+            return UpAxis::x;
+        case UpChoice::y:
+            return UpAxis::y;
+        case UpChoice::z:
+            return UpAxis::z;
+    }
+    return agreed_up(comm, looked);
+}
+
 View agreed_widest(const Comm& comm, const std::vector<const DrawnShape*>& looked, UpAxis up) {
     const std::vector<View> views = candidate_views({up});
     ExactSum shares(views.size());
@@ -115,13 +129,8 @@ View agree_on_view(const Comm& comm, const std::vector<DrawnShape>& shapes_local
     for (const DrawnShape& shape : shapes_local) {
         if (shape.number % stride == 0 && shape.picture.mesh.face_count() > 0) looked.push_back(&shape);
     }
-    UpAxis up = UpAxis::y;
-    if (choice.up == "auto") {
-        up = agreed_up(comm, looked);
-    } else {
-        up = choice.up == "x" ? UpAxis::x : choice.up == "y" ? UpAxis::y : UpAxis::z;
-    }
-    if (choice.view == "auto") return agreed_widest(comm, looked, up);
+    const UpAxis up = chosen_up(comm, looked, choice.up);
+    if (choice.view == widest_view) return agreed_widest(comm, looked, up);
     const std::optional<View> view = named_view(choice.view, up);
     if (view) return *view;
     throw AgreedError(ExitCode::usage,
@@ -131,7 +140,7 @@ View agree_on_view(const Comm& comm, const std::vector<DrawnShape>& shapes_local
 }
 
 std::string sheet_file(const std::string& kind) {
-    return kind == "parts" ? "contact_sheet.png" : "contact_sheet_" + kind + ".png";
+    return kind == name_of(SheetColoring::parts) ? "contact_sheet.png" : "contact_sheet_" + kind + ".png";
 }
 
 std::vector<std::string> write_sheets(const Comm& comm, const std::string& folder,

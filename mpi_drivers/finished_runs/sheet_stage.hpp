@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/enum_names.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/pictures/contact_sheet.hpp"
 #include "src/pictures/picture_mesh.hpp"
@@ -16,25 +17,29 @@ inline constexpr int shapes_a_page = 60;
 /// Of so many shapes at most: of a larger collection every second, third ... shape.
 inline constexpr int shapes_an_index = 1500;
 
+/// What faces are coloured by, beside the descriptors.
+enum class SheetColoring { parts, patches, truth, errors };
+constexpr std::array<EnumName<SheetColoring>, 4> enum_names(SheetColoring /*type*/) {
+    return {{{SheetColoring::parts, "parts"},
+             {SheetColoring::patches, "patches"},
+             {SheetColoring::truth, "truth"},
+             {SheetColoring::errors, "errors"}}};
+}
+
 struct DrawnShape {
     int number = 0;  ///< in the collection
     std::string caption;
     PictureMesh picture;
 };
 
-struct ViewChoice {
-    std::string view = "auto";  ///< auto, a name or AZIMUTH,ELEVATION: src/pictures/shape_view.hpp
-    std::string up = "auto";    ///< auto, x, y or z
-};
-
-/// One view for the whole collection. auto: the up axis on which the shapes stand best (y where it is as good as another),
-/// and of the candidates the view that shows the largest outlines, each shape counting the same.
+/// One view for the whole collection. auto: the up axis on which the shapes stand best (y where it is as good
+/// as another), and of the candidates the view that shows the largest outlines, each shape counting the same.
 /// Collective; the same on any number of ranks. shapes_local: of this rank. Throws AgreedError(usage) for an
 /// unknown name.
 View agree_on_view(const Comm& comm, const std::vector<DrawnShape>& shapes_local, const ViewChoice& choice);
 
 struct SheetRequest {
-    std::string kind;  ///< parts, patches, ...: part of the files' names, but for parts
+    std::string kind;  ///< name of a colouring or a descriptor: part of the files' names, but for parts
     SheetHeading heading;
     View view;
 };
@@ -43,8 +48,9 @@ struct SheetRequest {
 std::string sheet_file(const std::string& kind);
 
 /// Writes FOLDER/contact_sheet[_KIND].png, of all shapes if there are at most shapes_a_page, else an index of
-/// thumbnails beside FOLDER/sheets/KIND_1.png, ... Returns the files' names on rank 0. shapes_local: of this rank,
-/// ascending by number; shape_count: of all ranks. The same bytes on any number of ranks. Collective; throws AgreedError.
+/// thumbnails beside FOLDER/sheets/KIND_1.png, ... Returns the files' names on rank 0. shapes_local: of this
+/// rank, ascending by number; shape_count: of all ranks. The same bytes on any number of ranks. Collective;
+/// throws AgreedError.
 std::vector<std::string> write_sheets(const Comm& comm, const std::string& folder,
                                       const SheetRequest& request,
                                       const std::vector<DrawnShape>& shapes_local, int shape_count);

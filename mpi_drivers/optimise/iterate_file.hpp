@@ -9,7 +9,8 @@
 
 namespace coseg {
 
-/// A file of one generation of the iterate: FOLDER/iterate-GENERATION-BEGIN-END.h5 holds the columns BEGIN .. END.
+/// A file of one generation of the iterate: FOLDER/iterate-GENERATION-BEGIN-END.h5 holds the columns BEGIN ..
+/// END.
 struct IterateFile {
     int generation = 0;
     BlockRange columns;

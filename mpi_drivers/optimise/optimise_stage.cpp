@@ -14,55 +14,59 @@ namespace coseg {
 
 namespace {
 
-/// What --links stands for.
-int links_of(const std::string& links, int meshes) {
-    if (links == "all") return std::numeric_limits<int>::max();
-    if (links == "auto")
-        return meshes <= meshes_linked_to_all ? std::numeric_limits<int>::max() : default_links;
-    return std::stoi(links);
+/// In how many other meshes a patch may have matches, at most.
+int links_of(const LinkChoice& links, int meshes) {
+    constexpr int all = std::numeric_limits<int>::max();
+    switch (links.rule) {
+        case LinkChoice::Rule::all:
+            return all;
+        case LinkChoice::Rule::automatic:
+            return meshes <= meshes_linked_to_all ? all : default_links;
+        case LinkChoice::Rule::number:
+            break;
+    }
+    return links.meshes;
 }
 
-void refuse_contradictions(const RunOptions& options) {
-    const SubspaceVariant variant = variant_of(options.variant);
-    const bool over_all_pairs = options.scope != "mesh" || !keeps_scope(variant);
-    if (over_all_pairs && options.links != "auto" && options.links != "all") {
+void refuse_contradictions(const OptimiseOptions& options) {
+    const bool over_all_pairs = options.scope != PenaltyScope::meshes || !keeps_scope(options.variant);
+    if (over_all_pairs && options.links.rule == LinkChoice::Rule::number) {
         throw Error(ExitCode::usage,
-                    "--links " + options.links +
-                        ": links to some meshes only need --scope mesh and a variant that keeps it; "
+                    "--links " + to_string(options.links) +
+                        ": links to some meshes only need --scope meshes and a variant that keeps it; "
                         "row scope, ssc and ssqp are over all pairs");
     }
 }
 
 /// The place of --feature among the features at hand.
-int chosen_feature(const PatchFeatures& features, const RunOptions& options) {
-    if (variant_of(options.variant) != SubspaceVariant::single_feature) return 0;
-    for (std::size_t h = 0; h < features.feature_of.size(); ++h) {
-        if (feature_names[at(features.feature_of[h])] == options.feature) return static_cast<int>(h);
+int chosen_feature(const PatchFeatures& features, const OptimiseOptions& options) {
+    if (options.variant != SubspaceVariant::single_feature) return 0;
+    for (std::size_t h = 0; h < features.descriptors.size(); ++h) {
+        if (features.descriptors[h].name == options.feature) return static_cast<int>(h);
     }
     throw AgreedError(ExitCode::usage, "--feature " + options.feature +
                                            ": its weight is 0; give it a positive one in --feature-weights");
 }
 
-std::vector<std::string> feature_labels(const PatchFeatures& features, const RunOptions& options) {
-    const SubspaceVariant variant = variant_of(options.variant);
-    if (variant == SubspaceVariant::single_feature) return {options.feature};
-    if (variant != SubspaceVariant::multi_feature && variant != SubspaceVariant::independent)
+std::vector<std::string> feature_labels(const PatchFeatures& features, const OptimiseOptions& options) {
+    if (options.variant == SubspaceVariant::single_feature) return {options.feature};
+    if (options.variant != SubspaceVariant::multi_feature && options.variant != SubspaceVariant::independent)
         return {"concatenated"};
     std::vector<std::string> labels;
-    for (const int h : features.feature_of) labels.emplace_back(feature_names[at(h)]);
+    for (const Descriptor& descriptor : features.descriptors) labels.push_back(descriptor.name);
     return labels;
 }
 
-/// The problem that the options ask for, with the meshes' names as the seed of their links; without its features.
-SubspaceProblem subspace_problem(const Collection& collection, const RunOptions& options) {
+}  // namespace
+
+SubspaceProblem subspace_problem(const Collection& collection, const OptimiseOptions& options) {
     SubspaceProblem problem;
     problem.alpha = options.alpha;
     problem.beta = options.beta;
     problem.lambda = options.lambda;
     // One mesh has no other mesh to link to: its patches are then compared among themselves.
-    const bool mesh_scope = options.scope == "mesh" && collection.meshes.size() > 1;
-    problem.scope =
-        mesh_scope && keeps_scope(variant_of(options.variant)) ? PenaltyScope::meshes : PenaltyScope::rows;
+    const bool mesh_scope = options.scope == PenaltyScope::meshes && collection.meshes.size() > 1;
+    problem.scope = mesh_scope && keeps_scope(options.variant) ? PenaltyScope::meshes : PenaltyScope::rows;
     problem.mesh_of = collection.numbering.mesh_of();
     if (problem.scope == PenaltyScope::meshes) {
         std::vector<std::string> names;
@@ -73,17 +77,22 @@ SubspaceProblem subspace_problem(const Collection& collection, const RunOptions&
     return problem;
 }
 
-}  // namespace
+SolveOptions solve_options(const OptimiseOptions& options) {
+    return {.gap = options.gap,
+            .max_iterations = options.max_iterations,
+            .max_seconds = options.max_seconds,
+            .solver = options.solver};
+}
 
 Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunOptions& options, SolverCheckpoint* checkpoint, StageLog* log) {
+                      const OptimiseOptions& options, SolverCheckpoint* checkpoint, StageLog* log) {
     agree(comm, [&] { refuse_contradictions(options); });
     const int feature = chosen_feature(features, options);
     SubspaceProblem problem = subspace_problem(collection, options);
     problem.features = features.histograms;
     Optimisation done;
-    done.variant = options.variant;
-    done.scope = problem.scope == PenaltyScope::meshes ? "mesh" : "paper";
+    done.variant = to_string(options.variant);
+    done.scope = to_string(problem.scope);
     done.links = static_cast<int>(collection.meshes.size()) - 1;
     if (!problem.allowed_meshes.empty()) {
         done.links = 0;
@@ -91,16 +100,12 @@ Optimisation optimise(const Comm& comm, const Collection& collection, const Patc
             done.links = std::max(done.links, static_cast<int>(allowed.size()));
     }
     done.allowed_pairs = allowed_pair_count(problem);
-    const auto progress = [log](std::int64_t columns, std::int64_t all) {
+    SolveOptions solve = solve_options(options);
+    solve.checkpoint = checkpoint;
+    solve.progress = [log](std::int64_t columns, std::int64_t all) {
         if (log != nullptr) log->progress(columns, all);
     };
-    const SolveOptions solve{.gap = options.gap,
-                             .max_iterations = options.max_iterations,
-                             .max_seconds = options.max_seconds,
-                             .solver = options.solver,
-                             .progress = progress,
-                             .checkpoint = checkpoint};
-    done.result = solve_variant(comm, problem, variant_of(options.variant), feature, solve);
+    done.result = solve_variant(comm, problem, options.variant, feature, solve);
     done.features = feature_labels(features, options);
     return done;
 }

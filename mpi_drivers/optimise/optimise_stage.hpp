@@ -1,5 +1,6 @@
 #pragma once
-// From features to coefficients: sets up the subspace problem as the options ask for it, solves it, and says how well.
+// From features to coefficients: sets up the subspace problem as the options ask for it, solves it, and says
+// how well.
 
 #include <cstdint>
 #include <string>
@@ -7,7 +8,7 @@
 
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
-#include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/options/stage_options.hpp"
 #include "solvers/variants/subspace_solver.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
@@ -20,10 +21,15 @@ struct Optimisation : OptimisationFacts {
     std::vector<std::string> features;  ///< names of the coefficients' features: H of them, or one
 };
 
-/// checkpoint: see SolveOptions; log: is told of the progress, and may be null. Collective. Throws AgreedError: usage where --links or --variant do not fit the rest, what
-/// solve_variant throws.
+/// The problem that the options ask for, without its features; the meshes' names are the seed of their links.
+SubspaceProblem subspace_problem(const Collection& collection, const OptimiseOptions& options);
+/// When its solver stops, and which it is.
+SolveOptions solve_options(const OptimiseOptions& options);
+
+/// checkpoint: see SolveOptions; log: is told of the progress, and may be null. Collective. Throws
+/// AgreedError: usage where --links or --variant do not fit the rest, what solve_variant throws.
 Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunOptions& options, SolverCheckpoint* checkpoint = nullptr,
+                      const OptimiseOptions& options, SolverCheckpoint* checkpoint = nullptr,
                       StageLog* log = nullptr);
 
 /// One line for the log.

@@ -1,6 +1,6 @@
 #pragma once
-// What the commands that solve share: the certificate as JSON, the history, W to a file, and the refusals that follow a
-// solve.
+// What the commands that solve share: the certificate as JSON, the history, W to a file, and the refusals
+// that follow a solve.
 
 #include <string>
 #include <vector>

@@ -46,7 +46,7 @@ ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& opti
     hasher.add(std::int64_t{tiles_version});
     for (const double number : {alpha, beta, lambda, gap}) hasher.add(number);
     hasher.add(max_iterations);
-    hasher.add(solver);
+    hasher.add(to_string(solver));
     hasher.add(static_cast<int>(scope));
     add_value(hasher, mesh_of);
     add_value(hasher, allowed_meshes);

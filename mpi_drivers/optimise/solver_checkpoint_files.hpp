@@ -21,9 +21,10 @@ namespace coseg {
 /// A hash of all that a tile depends on: the problem, the options that steer the method, and the program.
 ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& options);
 
-/// Tiles are written in runs, DIR/solver/KEY/tiles-BEGIN-END.h5, by whichever rank solved them; a later run with any
-/// number of ranks reads the files that overlap its columns. Iterates (iterate_file.hpp) are written there by all ranks, one
-/// generation after the other; the one before goes when all files of the next are there.
+/// Tiles are written in runs, DIR/solver/KEY/tiles-BEGIN-END.h5, by whichever rank solved them; a later run
+/// with any number of ranks reads the files that overlap its columns. Iterates (iterate_file.hpp) are written
+/// there by all ranks, one generation after the other; the one before goes when all files of the next are
+/// there.
 class SolverCheckpointFiles : public SolverCheckpoint {
   public:
     SolverCheckpointFiles(const Comm& comm, const RunState& state) : comm_(comm), state_(state) {}
@@ -39,7 +40,8 @@ class SolverCheckpointFiles : public SolverCheckpoint {
 
     /// Collective: what went wrong with files, a sentence each, on all ranks.
     [[nodiscard]] std::vector<std::string> warnings() const { return all_gather_records(comm_, warnings_); }
-    /// Tiles of this rank that need not be solved again, and those that were solved; an iterate counts one on rank 0.
+    /// Tiles of this rank that need not be solved again, and those that were solved; an iterate counts one on
+    /// rank 0.
     [[nodiscard]] int found_count() const noexcept { return found_; }
     [[nodiscard]] int kept_count() const noexcept { return kept_; }
 

@@ -2,11 +2,12 @@
 
 #include <sstream>
 #include <type_traits>
+#include <utility>
 
 #include "io/mesh_files/mesh_format.hpp"
+#include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
-#include "solvers/variants/subspace_variants.hpp"
-#include "src/descriptors/feature.hpp"
+#include "src/descriptors/descriptor_table.hpp"
 #include "src/pictures/shape_view.hpp"
 
 namespace coseg {
@@ -22,10 +23,11 @@ constexpr const char* partition_group = "Partition into parts";
 template <class T>
 std::string printed(const T& value) {
     std::ostringstream text;
-    if constexpr (std::is_same_v<T, bool>) {
+    if constexpr (NamedEnum<T> || std::is_same_v<T, LinkChoice>) {
+        text << to_string(value);
+    } else if constexpr (std::is_same_v<T, bool>) {
         text << (value ? "true" : "false");
-    } else if constexpr (std::is_same_v<T, std::vector<double>> ||
-                         std::is_same_v<T, std::vector<std::string>>) {
+    } else if constexpr (std::is_same_v<T, std::vector<double>>) {
         for (std::size_t i = 0; i < value.size(); ++i) text << (i > 0 ? "," : "") << value[i];
     } else {
         text << value;
@@ -38,18 +40,13 @@ const CLI::Validator unsigned_number(
 
 const CLI::Validator links_text(
     [](std::string& text) {
-        int links = 0;
-        if (text == "auto" || text == "all") return std::string();
-        const bool number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos &&
-                            CLI::detail::lexical_cast(text, links);
-        return number && links >= 2 ? std::string()
-                                    : text + " is none of auto, all and a number of at least 2";
+        return parsed_links(text) ? std::string() : text + " is none of auto, all and a number of at least 2";
     },
     "auto|all|NUMBER");
 
 const CLI::Validator view_name(
     [](std::string& text) {
-        const bool is_known = text == "auto" || named_view(text, UpAxis::y).has_value();
+        const bool is_known = text == widest_view || named_view(text, UpAxis::y).has_value();
         return is_known ? std::string()
                         : text +
                               " is no view; take auto, front, back, left, right, top, bottom, "
@@ -57,248 +54,380 @@ const CLI::Validator view_name(
     },
     "");
 
+const CLI::Validator not_of_descriptions(
+    [](std::string&) { return std::string("descriptions do not depend on it; give it to coseg run"); }, "");
+
+/// Of all features that a run may have.
+std::vector<std::string> feature_names() {
+    std::vector<std::string> names = descriptor_names();
+    names.emplace_back(face_features_name);
+    return names;
+}
+
+const CLI::Validator subset_size(
+    [](std::string& text) {
+        return text == "1" || text == "2" || text == "3" ? std::string("a subset needs at least 4 shapes")
+                                                         : std::string();
+    },
+    "");
+
 }  // namespace
 
+void RunOptionTable::remember(const Row& row, std::function<std::string()> print) {
+    printers_.push_back({row.key, row.affects, std::move(print)});
+}
+
 template <class T>
-CLI::Option* RunOptionTable::add(CLI::App& app, const std::string& key, T& variable, const std::string& help,
-                                 const std::string& group) {
-    printers_.emplace_back(key, [&variable] { return printed(variable); });
-    CLI::Option* option = app.add_option("--" + key, variable, help)->capture_default_str()->group(group);
-    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::vector<double>>) {
-        option->check(finite_number);
+CLI::Option* RunOptionTable::add(const Row& row, T& variable) {
+    remember(row, [&variable] { return printed(variable); });
+    const std::string name = "--" + row.key;
+    if constexpr (NamedEnum<T>) {
+        return add_enum_option(app_, name, variable, row.help)->group(row.group);
+    } else {
+        CLI::Option* option =
+            app_.add_option(name, variable, row.help)->capture_default_str()->group(row.group);
+        if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::vector<double>>)
+            option->check(finite_number);
+        return option;
     }
-    if constexpr (std::is_unsigned_v<T>) option->check(unsigned_number);
-    return option;
 }
 
-CLI::Option* RunOptionTable::add_switch(CLI::App& app, const std::string& key, bool& variable,
-                                        const std::string& help, const std::string& group) {
-    printers_.emplace_back(key, [&variable] { return printed(variable); });
+CLI::Option* RunOptionTable::add_switch(const Row& row, bool& variable) {
+    remember(row, [&variable] { return printed(variable); });
     const std::string standard = variable ? " (on by default)" : " (off by default)";
-    return app.add_flag("--" + key + ",!--no-" + key, variable, help + standard)->group(group);
+    return app_.add_flag("--" + row.key + ",!--no-" + row.key, variable, row.help + standard)
+        ->group(row.group);
 }
 
-RunOptionTable::RunOptionTable(CLI::App& app, RunOptions& options, OptionSet set) : options_(options) {
-    add_input_and_output(app, set);
-    if (set == OptionSet::run) add_picture(app);
-    add_patches_and_features(app);
+RunOptionTable::RunOptionTable(CLI::App& app, RunOptions& options, OptionSet set)
+    : app_(app), options_(options) {
+    add_input_and_output(set);
+    if (set == OptionSet::run) add_picture();
+    add_patches();
+    add_features(set);
     if (set == OptionSet::describe) return;
-    add_optimisation(app);
-    add_partition(app);
+    add_problem();
+    add_solver();
+    add_partition();
+    add_choice();
 }
 
-void RunOptionTable::add_input_and_output(CLI::App& app, OptionSet set) {
-    // The preset is the first option because CLI11 runs callbacks in the order of definition: what else is given overrides it.
-    printers_.emplace_back("preset", [this] { return options_.preset; });
-    app.add_option_function<std::string>(
-           "--preset", [this](const std::string& preset) { options_ = preset_options(preset); },
-           "default; paper: its literal text; or a baseline: single:FEATURE, independent, concatenated "
-           "(features), "
-           "descriptor-space (Sidi et al. 2011); other options override it")
+/// The preset is the first option because CLI11 runs callbacks in the order of definition: what else is given
+/// overrides it.
+void RunOptionTable::add_preset() {
+    remember({"preset", Affects::nothing, in_out_group, ""}, [this] { return options_.preset; });
+    app_.add_option_function<std::string>(
+            "--preset", [this](const std::string& preset) { options_ = preset_options(preset); },
+            "default; paper: its literal text; or a baseline: single:FEATURE, independent, concatenated "
+            "(features), descriptor-space (Sidi et al. 2011); other options override it")
         ->check(CLI::IsMember(preset_names()))
         ->default_str("default")
         ->group(in_out_group);
-    app.add_option(
-           "input", options_.inputs,
-           "Meshes (" + readable_formats() + "), folders of them, or @LIST: a file with a path a line")
+}
+
+void RunOptionTable::add_seed() {
+    remember({"seed", Affects::describe, in_out_group, ""},
+             [this] { return printed(options_.description.seed); });
+    app_.add_option_function<std::uint64_t>(
+            "--seed", [this](const std::uint64_t& seed) { set_seed(options_, seed); },
+            "Seed of all randomness; the same seed gives the same bytes")
+        ->default_str(printed(options_.description.seed))
+        ->check(unsigned_number)
+        ->group(in_out_group);
+}
+
+void RunOptionTable::add_input_and_output(OptionSet set) {
+    ProcessOptions& process = options_.process;
+    add_preset();
+    app_.add_option(
+            "input", process.inputs,
+            "Meshes (" + readable_formats() + "), folders of them, or @LIST: a file with a path a line")
         ->required()
         ->type_name("MESH|DIRECTORY|@LIST");
-    if (set == OptionSet::run) add_results(app);
-    add_switch(app, "strict", options_.strict,
-               "A mesh that cannot be used ends the run instead of being set aside", in_out_group);
-    add_switch(app, "keep-features", options_.keep_features,
-               "Also write DIR/features.h5, which coseg cluster reads", in_out_group);
-    add_switch(app, "quiet", options_.quiet, "No progress lines; warnings and errors only", in_out_group);
-    add_switch(app, "verbose", options_.verbose, "Also say what the steps of a stage took", in_out_group);
-    add_switch(app, "json-log", options_.json_log, "Progress and warnings as one JSON object a line",
-               in_out_group);
-    add(app, "seed", options_.seed, "Seed of all randomness; the same seed gives the same bytes",
-        in_out_group);
-    app.add_option("--ranks", ranks_, "Ranks of a run that is started without mpirun; 0: one for each core")
+    if (set == OptionSet::run) add_results();
+    add_switch({"strict", Affects::nothing, in_out_group,
+                "A mesh that cannot be used ends the run instead of being set aside"},
+               process.strict);
+    add_switch({"keep-features", Affects::output, in_out_group,
+                "Also write DIR/features.h5, which coseg cluster reads"},
+               options_.output.keep_features);
+    add_switch({"quiet", Affects::nothing, in_out_group, "No progress lines; warnings and errors only"},
+               process.quiet);
+    add_switch({"verbose", Affects::nothing, in_out_group, "Also say what the steps of a stage took"},
+               process.verbose);
+    add_switch(
+        {"json-log", Affects::nothing, in_out_group, "Progress and warnings as one JSON object a line"},
+        process.json_log);
+    add_seed();
+    app_.add_option("--ranks", ranks_, "Ranks of a run that is started without mpirun; 0: one for each core")
         ->check(CLI::Range(0, 100000))
         ->group(in_out_group);
-    add_state(app, set);
-    add(app, "config", options_.config, "Read options from a TOML or INI file; the command line wins",
-        in_out_group)
+    add_state(set);
+    add({"config", Affects::nothing, in_out_group,
+         "Read options from a TOML or INI file; the command line wins"},
+        process.config)
         ->type_name("FILE");
 }
 
-void RunOptionTable::add_picture(CLI::App& app) {
-    add_switch(app, "sheet", options_.sheet,
-               "Draw contact_sheet.png, every shape coloured by part, and affinity.png", picture_group);
-    add_switch(app, "html", options_.html, "Write report.html: the run as one page to look at",
-               picture_group);
-    add(app, "view", options_.view,
-        "View of the picture: auto, a name or AZIMUTH,ELEVATION; see coseg render --help", picture_group)
+void RunOptionTable::add_picture() {
+    OutputOptions& output = options_.output;
+    add_switch({"sheet", Affects::output, picture_group,
+                "Draw contact_sheet.png, every shape coloured by part, and affinity.png"},
+               output.sheet);
+    add_switch({"html", Affects::output, picture_group, "Write report.html: the run as one page to look at"},
+               output.html);
+    add({"view", Affects::output, picture_group,
+         "View of the picture: auto, a name or AZIMUTH,ELEVATION; see coseg render --help"},
+        output.view.view)
         ->check(view_name);
-    add(app, "up", options_.up, "The axis that points up: auto, x, y, z", picture_group)
-        ->check(CLI::IsMember({"auto", "x", "y", "z"}));
+    add({"up", Affects::output, picture_group, "The axis that points up: auto, x, y, z"}, output.view.up);
 }
 
-void RunOptionTable::add_results(CLI::App& app) {
-    add(app, "parts", options_.parts, "Number of parts K that the shapes are cut into", in_out_group)
+void RunOptionTable::add_results() {
+    OutputOptions& output = options_.output;
+    add({"parts", Affects::cut, in_out_group, "Number of parts K that the shapes are cut into"},
+        options_.partition.parts)
         ->required()
         ->check(CLI::Range(1, 1000));
-    add(app, "out", options_.out, "Folder for the results; must be new or empty unless --force", in_out_group)
+    add({"out", Affects::nothing, in_out_group,
+         "Folder for the results; must be new or empty unless --force"},
+        output.folder)
         ->required();
-    add_switch(app, "keep-model", options_.keep_model,
-               "Write DIR/model.h5, by which coseg assign labels more shapes like these", in_out_group);
-    add_switch(app, "force", options_.force, "Replace earlier results in a folder that is not empty",
-               in_out_group);
+    add_switch({"keep-model", Affects::output, in_out_group,
+                "Write DIR/model.h5, by which coseg assign labels more shapes like these"},
+               output.keep_model);
     add_switch(
-        app, "profile", options_.profile,
-        "Say where each rank's time went: a table of stages and PETSc's log (also DIR/profile.txt), and "
-        "DIR/trace.json for Perfetto or Chrome",
-        in_out_group);
+        {"force", Affects::nothing, in_out_group, "Replace earlier results in a folder that is not empty"},
+        output.force);
+    add_switch({"profile", Affects::output, in_out_group,
+                "Say where each rank's time went: a table of stages and PETSc's log (also DIR/profile.txt), "
+                "and DIR/trace.json for Perfetto or Chrome"},
+               output.profile);
 }
 
-void RunOptionTable::add_state(CLI::App& app, OptionSet set) {
-    add(app, "state", options_.state,
-        "Folder that keeps what is computed: a later run uses what still holds, one that was ended continues",
-        in_out_group)
+void RunOptionTable::add_state(OptionSet set) {
+    add({"state", Affects::nothing, in_out_group,
+         "Folder that keeps what is computed: a later run uses what still holds, one that was ended "
+         "continues"},
+        options_.process.state)
         ->type_name("DIR")
         ->required(set == OptionSet::describe);
     if (set == OptionSet::describe) return;
-    add(app, "checkpoint-seconds", options_.checkpoint_seconds,
-        "With --state: the optimiser's progress is written so often", in_out_group)
+    add({"checkpoint-seconds", Affects::nothing, in_out_group,
+         "With --state: the optimiser's progress is written so often"},
+        options_.process.checkpoint_seconds)
         ->check(CLI::Range(0.0, 1e9));
 }
 
-void RunOptionTable::add_patches_and_features(CLI::App& app) {
-    add(app, "remesh", options_.remesh,
-        "Even triangles inside the program: always, never, or auto: for meshes whose triangles are too long "
-        "for "
-        "patches",
-        patches_group)
-        ->check(CLI::IsMember({"auto", "always", "never"}));
-    add(app, "patches", options_.patches, "Patches per over-segmentation of a mesh", patches_group)
+void RunOptionTable::add_patches() {
+    DescriptionOptions& description = options_.description;
+    add({"remesh", Affects::describe, patches_group,
+         "Even triangles inside the program: always, never, or auto: for meshes whose triangles are too long "
+         "for patches"},
+        description.remesh);
+    add({"patches", Affects::describe, patches_group, "Patches per over-segmentation of a mesh"},
+        description.patches)
         ->check(CLI::Range(2, 1000));
-    add(app, "oversegmentations", options_.oversegmentations, "Over-segmentations per mesh, pooled",
-        patches_group)
+    add({"oversegmentations", Affects::describe, patches_group, "Over-segmentations per mesh, pooled"},
+        description.oversegmentations)
         ->check(CLI::Range(1, 20));
-    add(app, "cut-noise", options_.cut_noise,
-        "Log-normal noise on edge weights that makes over-segmentations differ", patches_group)
+    add({"cut-noise", Affects::describe, patches_group,
+         "Log-normal noise on edge weights that makes over-segmentations differ"},
+        description.cut_noise)
         ->check(CLI::Range(0.0, 2.0));
-    add(app, "geodesic-samples", options_.geodesic_samples,
-        "Sample points a mesh for geodesic distances and shape contexts", patches_group)
+    add({"geodesic-samples", Affects::describe, patches_group,
+         "Sample points a mesh for geodesic distances and shape contexts"},
+        description.geodesic_samples)
         ->check(CLI::Range(10, 5000));
-    add(app, "bins", options_.bins, "Histogram bins, and words of shape contexts", patches_group)
+}
+
+void RunOptionTable::add_features(OptionSet set) {
+    FeatureOptions& features = options_.features;
+    add({"bins", Affects::features, patches_group, "Histogram bins, and words of shape contexts"},
+        features.bins)
         ->check(CLI::Range(2, 1000));
-    add(app, "word-sets", options_.word_sets, "Sets of shape-context words whose similarities are averaged",
-        patches_group)
+    add({"word-sets", Affects::features, patches_group,
+         "Sets of shape-context words whose similarities are averaged"},
+        features.word_sets)
         ->check(CLI::Range(1, 100));
-    add(app, "histogram", options_.histogram, "Scaling of histograms: counts, unit-sum, square-root",
-        patches_group)
-        ->check(CLI::IsMember({"counts", "unit-sum", "square-root"}));
-    add(app, "ranges", options_.ranges,
-        "Bin ranges: adapted (curvature in equal-mass bins, the others rescaled per mesh), or global (equal "
-        "widths over all meshes)",
-        patches_group)
-        ->check(CLI::IsMember({"adapted", "global"}));
-    add(app, "feature-weights", options_.feature_weights,
-        "Weights of curvature, shape diameter, geodesic distance, shape context, conformal factor; 0 leaves "
-        "one out",
-        patches_group)
-        ->delimiter(',')
-        ->expected(5)
-        ->allow_extra_args(false)  // or the inputs after it would be taken for weights
+    add({"histogram", Affects::features, patches_group,
+         "Scaling of histograms: counts, unit-sum, square-root"},
+        features.histogram);
+    add({"ranges", Affects::features, patches_group,
+         "Bin ranges: adapted (curvature in equal-mass bins, the others rescaled per mesh), or global (equal "
+         "widths over all meshes)"},
+        features.ranges);
+    add_feature_weights();
+    add_face_features(set);
+}
+
+void RunOptionTable::add_face_features(OptionSet set) {
+    // Where the numbers are has no effect; they themselves are part of the features that a cut is found by.
+    CLI::Option* folder =
+        add({"face-features", Affects::nothing, patches_group,
+             "Folder with numbers of yours for every face, NAME.npy or NAME.h5 (dataset features), faces x "
+             "numbers: one more feature, binned, or by words where a face has several"},
+            options_.features.face_features)
+            ->type_name("DIR");
+    if (set == OptionSet::describe) folder->check(not_of_descriptions);
+    add({"face-feature-weight", Affects::features, patches_group, "Weight of what --face-features gives"},
+        options_.features.face_feature_weight)
         ->check(CLI::Range(0.0, 1000.0));
 }
 
-void RunOptionTable::add_optimisation(CLI::App& app) {
-    add(app, "variant", options_.variant,
-        "Form of the problem: multi-feature; single-feature (see --feature); independent (no consistency "
-        "over the "
-        "features); concatenated (features stacked); ssc, ssc-signed, ssqp (stacked features, all pairs)",
-        optimise_group)
-        ->check(CLI::IsMember(variant_names()));
-    add(app, "feature", options_.feature, "The feature of --variant single-feature", optimise_group)
-        ->check(CLI::IsMember(std::vector<std::string>(feature_names.begin(), feature_names.end())));
-    add(app, "scope", options_.scope,
-        "What lambda's squared sums run over: paper (whole rows), or mesh (the links of a patch to one mesh)",
-        optimise_group)
-        ->check(CLI::IsMember({"paper", "mesh"}));
-    add(app, "links", options_.links,
-        "Mesh scope: other meshes in which a patch looks for matches: all, a number (a seeded sample of "
-        "meshes), or "
-        "auto: all in small collections",
-        optimise_group)
-        ->check(links_text);
-    add(app, "alpha", options_.alpha, "Weight of the l2,1 penalty: consistency over the features",
-        optimise_group)
+void RunOptionTable::add_feature_weights() {
+    std::string phrases;
+    for (const Descriptor& row : descriptor_table()) phrases += (phrases.empty() ? "" : ", ") + row.phrase;
+    const Row row{"feature-weights", Affects::features, patches_group,
+                  "Weights of " + phrases +
+                      "; 0 leaves one out, those at the end that are not given keep their default"};
+    std::vector<double>& weights = options_.features.weights;
+    remember(row, [&weights] { return printed(weights); });
+    const std::vector<double> standard = default_descriptor_weights();
+    const auto take = [&weights, standard](const std::string& text) {
+        std::vector<double> given;
+        for (const std::string& number : CLI::detail::split(text, ',')) given.push_back(std::stod(number));
+        if (given.size() > standard.size()) {
+            throw CLI::ValidationError("--feature-weights",
+                                       "there are only " + std::to_string(standard.size()) + " descriptors");
+        }
+        // Those that are not given keep their default, so that a list for fewer descriptors stays what it
+        // was.
+        given.insert(given.end(), standard.begin() + static_cast<std::ptrdiff_t>(given.size()),
+                     standard.end());
+        weights = std::move(given);
+    };
+    // One text joined by commas: as a list of up to so many numbers it would take the inputs after it for
+    // weights.
+    app_.add_option_function<std::string>("--" + row.key, take, row.help)
+        ->multi_option_policy(CLI::MultiOptionPolicy::Join)
+        ->delimiter(',')
+        ->check(CLI::Range(0.0, 1000.0))
+        ->check(finite_number)
+        ->type_name("NUMBER,...")
+        ->default_str(printed(standard))
+        ->group(patches_group);
+}
+
+void RunOptionTable::add_problem() {
+    OptimiseOptions& optimise = options_.optimise;
+    add({"variant", Affects::solve, optimise_group,
+         "Form of the problem: multi-feature; single-feature (see --feature); independent (no consistency "
+         "over the features); concatenated (features stacked); ssc, ssc-signed, ssqp (stacked features, all "
+         "pairs)"},
+        optimise.variant);
+    add({"feature", Affects::solve, optimise_group, "The feature of --variant single-feature"},
+        optimise.feature)
+        ->check(CLI::IsMember(feature_names()));
+    add({"scope", Affects::solve, optimise_group,
+         "What lambda's squared sums run over: rows (whole rows, as in the paper), or meshes (the links of a "
+         "patch to one mesh)"},
+        optimise.scope);
+    const Row links{"links", Affects::solve, optimise_group,
+                    "Mesh scope: other meshes in which a patch looks for matches: all, a number (a seeded "
+                    "sample of meshes), or auto: all in small collections"};
+    remember(links, [&optimise] { return printed(optimise.links); });
+    app_.add_option_function<std::string>(
+            "--links", [&optimise](const std::string& text) { optimise.links = parsed_links(text).value(); },
+            links.help)
+        ->check(links_text)
+        ->default_str(printed(optimise.links))
+        ->group(optimise_group);
+    add({"alpha", Affects::solve, optimise_group,
+         "Weight of the l2,1 penalty: consistency over the features"},
+        optimise.alpha)
         ->check(CLI::Range(0.0, 1e12));
-    add(app, "beta", options_.beta, "Weight of the l1 penalty: sparseness", optimise_group)
+    add({"beta", Affects::solve, optimise_group, "Weight of the l1 penalty: sparseness"}, optimise.beta)
         ->check(CLI::Range(0.0, 1e12));
-    add(app, "lambda", options_.lambda, "Weight of the squared sums", optimise_group)
+    add({"lambda", Affects::solve, optimise_group, "Weight of the squared sums"}, optimise.lambda)
         ->check(CLI::Range(0.0, 1e12));
-    add(app, "solver", options_.solver, "auto, dense or working-set", optimise_group)
-        ->check(CLI::IsMember({"auto", "dense", "working-set"}));
-    add(app, "gap", options_.gap, "Relative duality gap at which the optimiser stops", optimise_group)
+}
+
+void RunOptionTable::add_solver() {
+    OptimiseOptions& optimise = options_.optimise;
+    add({"solver", Affects::solve, optimise_group, "auto, dense or working-set"}, optimise.solver);
+    add({"gap", Affects::solve, optimise_group, "Relative duality gap at which the optimiser stops"},
+        optimise.gap)
         ->check(CLI::Range(1e-12, 1.0));
-    add(app, "max-iterations", options_.max_iterations, "Limit of the optimiser's iterations", optimise_group)
+    add({"max-iterations", Affects::solve, optimise_group, "Limit of the optimiser's iterations"},
+        optimise.max_iterations)
         ->check(CLI::Range(1, 100000000));
-    add(app, "max-seconds", options_.max_seconds, "Limit of the optimiser's time", optimise_group)
+    // What the clock has ended is not kept, so that nothing which is kept depends on it.
+    add({"max-seconds", Affects::nothing, optimise_group, "Limit of the optimiser's time"},
+        optimise.max_seconds)
         ->check(CLI::Range(0.001, 1e9));
 }
 
-void RunOptionTable::add_partition(CLI::App& app) {
-    add(app, "affinity", options_.affinity,
-        "links (row-normalised links between meshes) or formula-8 (the paper's)", partition_group)
-        ->check(CLI::IsMember({"links", "formula-8"}));
-    add(app, "adjacency", options_.adjacency,
-        "Weight of the adjacency of patches of a mesh against their links to other meshes; 0 gives the "
-        "paper's text",
-        partition_group)
-        ->check(CLI::Range(0.0, 1000.0));
-    add(app, "overlap", options_.overlap,
-        "Weight of overlaps between over-segmentations, as a share of adjacency", partition_group)
-        ->check(CLI::Range(0.0, 1000.0));
-    add(app, "mesh-balance", options_.mesh_balance,
-        "How dear it is to cut whole shapes apart instead of parts; 0 gives the paper's cut", partition_group)
+void RunOptionTable::add_partition() {
+    PartitionOptions& partition = options_.partition;
+    add({"affinity", Affects::cut, partition_group,
+         "links (row-normalised links between meshes) or formula-8 (the paper's)"},
+        partition.affinity);
+    add({"drop-below", Affects::cut, partition_group,
+         "Entries of the affinity below this are dropped; the paper's code has 1e-6"},
+        partition.drop_below)
         ->check(CLI::Range(0.0, 1.0));
-    add_switch(app, "choose", options_.choose,
-               "Try several adjacency weights and cluster numbers, choose without labels", partition_group);
-    add(app, "subsets", options_.subsets,
-        "Solve overlapping subsets of so many shapes, a third of them common to all, and reconcile their "
-        "parts; 0 solves "
-        "the collection whole",
-        partition_group)
-        ->check(CLI::Validator(
-            [](std::string& text) {
-                return text == "1" || text == "2" || text == "3"
-                           ? std::string("a subset needs at least 4 shapes")
-                           : std::string();
-            },
-            ""))
-        ->check(CLI::Range(0, 1000000));
-    add_switch(app, "segments", options_.segments,
-               "A second pass on the whole segments that the first one gave", partition_group);
-    add(app, "partition", options_.partition,
-        "spectral (normalised cut of the affinity), or diffusion (patches clustered by their descriptors "
-        "alone: no "
-        "coefficients, adjacency or choice)",
-        partition_group)
-        ->check(CLI::IsMember({"spectral", "diffusion"}));
-    add(app, "refine", options_.refine,
-        "Boundaries between parts moved into creases by fuzzy cuts in a strip of 10 triangles: none, fuzzy "
-        "(Katz and "
-        "Tal 2003), or held (what is far from the boundary is held by its part)",
-        partition_group)
-        ->check(CLI::IsMember({"none", "fuzzy", "held"}));
-    add_switch(app, "articulated", options_.articulated,
-               "With --choose: cuts without adjacency among those tried, for shapes of many limbs",
-               partition_group);
-    add_switch(
-        app, "places", options_.places,
-        "With --choose: cuts with links weighed by where their patches lie among those tried, for shapes "
-        "that stand alike",
-        partition_group);
+    add({"cut-offset", Affects::cut, partition_group,
+         "What the normalised cut adds to the affinity's diagonal, and twice to the degrees; the paper's "
+         "code "
+         "has 0.5, which leaves --mesh-balance without a meaning"},
+        partition.cut_offset)
+        ->check(CLI::Range(0.0, 1e6));
+    add({"adjacency", Affects::cut, partition_group,
+         "Weight of the adjacency of patches of a mesh against their links to other meshes; 0 gives the "
+         "paper's text"},
+        partition.adjacency)
+        ->check(CLI::Range(0.0, 1000.0));
+    add({"overlap", Affects::cut, partition_group,
+         "Weight of overlaps between over-segmentations, as a share of adjacency"},
+        partition.overlap)
+        ->check(CLI::Range(0.0, 1000.0));
+    add({"mesh-balance", Affects::cut, partition_group,
+         "How dear it is to cut whole shapes apart instead of parts; 0 gives the paper's cut"},
+        partition.mesh_balance)
+        ->check(CLI::Range(0.0, 1.0));
 }
 
-std::vector<std::pair<std::string, std::string>> RunOptionTable::resolved() const {
-    std::vector<std::pair<std::string, std::string>> values;
-    for (const auto& [key, print] : printers_) values.emplace_back(key, print());
+void RunOptionTable::add_choice() {
+    PartitionOptions& partition = options_.partition;
+    add_switch({"choose", Affects::cut, partition_group,
+                "Try several adjacency weights and cluster numbers, choose without labels"},
+               partition.choose);
+    add({"subsets", Affects::cut, partition_group,
+         "Solve overlapping subsets of so many shapes, a third of them common to all, and reconcile their "
+         "parts; 0 solves the collection whole"},
+        partition.subsets)
+        ->check(subset_size)
+        ->check(CLI::Range(0, 1000000));
+    add_switch({"segments", Affects::cut, partition_group,
+                "A second pass on the whole segments that the first one gave"},
+               partition.segments);
+    add({"partition", Affects::cut, partition_group,
+         "spectral (normalised cut of the affinity), or diffusion (patches clustered by their descriptors "
+         "alone: no coefficients, adjacency or choice)"},
+        partition.method);
+    add({"refine", Affects::output, partition_group,
+         "Boundaries between parts moved into creases by fuzzy cuts in a strip of 10 triangles: none, fuzzy "
+         "(Katz and Tal 2003), or held (what is far from the boundary is held by its part)"},
+        options_.output.refine);
+    add_switch({"articulated", Affects::cut, partition_group,
+                "With --choose: cuts without adjacency among those tried, for shapes of many limbs"},
+               partition.articulated);
+    add_switch({"places", Affects::cut, partition_group,
+                "With --choose: cuts with links weighed by where their patches lie among those tried, for "
+                "shapes that stand alike"},
+               partition.places);
+}
+
+std::vector<OptionValue> RunOptionTable::values() const {
+    std::vector<OptionValue> values;
+    for (const Printer& row : printers_) values.push_back({row.key, row.print(), row.affects});
     return values;
+}
+
+std::vector<OptionValue> option_values(RunOptions options) {
+    CLI::App unused;
+    return RunOptionTable(unused, options).values();
 }
 
 }  // namespace coseg

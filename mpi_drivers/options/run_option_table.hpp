@@ -1,13 +1,14 @@
 #pragma once
-// The one table of the options of `coseg run`: key, type, default, range and help; it gives --help, the validation, the
-// configuration file and the resolved options of the report.
+// The one table of the options of `coseg run`: key, type, default, range, help and what it affects; it gives
+// --help, the validation, the configuration file, the resolved options of the report and the keys of a state
+// folder.
 
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "mpi_drivers/options/option_value.hpp"
 #include "mpi_drivers/options/run_options.hpp"
 
 namespace coseg {
@@ -17,31 +18,53 @@ enum class OptionSet {
     describe,  ///< those of `coseg describe`: --state is required, what concerns results is left out
 };
 
-/// Adds every option of the set to `app` and remembers how to print its resolved value. `options` must outlive both.
+/// Adds every option of the set to `app` and remembers how to print its resolved value. `options` must
+/// outlive both.
 class RunOptionTable {
   public:
     RunOptionTable(CLI::App& app, RunOptions& options, OptionSet set = OptionSet::run);
 
-    /// (key, value) of every option after parsing, in the order of --help.
-    [[nodiscard]] std::vector<std::pair<std::string, std::string>> resolved() const;
+    /// Every option after parsing, in the order of --help.
+    [[nodiscard]] std::vector<OptionValue> values() const;
 
   private:
-    void add_input_and_output(CLI::App& app, OptionSet set);
-    void add_results(CLI::App& app);
-    void add_state(CLI::App& app, OptionSet set);
-    void add_picture(CLI::App& app);
-    void add_patches_and_features(CLI::App& app);
-    void add_optimisation(CLI::App& app);
-    void add_partition(CLI::App& app);
+    struct Row {
+        std::string key;
+        Affects affects;
+        const char* group;
+        std::string help;
+    };
+    void add_input_and_output(OptionSet set);
+    void add_preset();
+    void add_seed();
+    void add_results();
+    void add_state(OptionSet set);
+    void add_picture();
+    void add_patches();
+    void add_features(OptionSet set);
+    void add_feature_weights();
+    void add_face_features(OptionSet set);
+    void add_problem();
+    void add_solver();
+    void add_partition();
+    void add_choice();
     template <class T>
-    CLI::Option* add(CLI::App& app, const std::string& key, T& variable, const std::string& help,
-                     const std::string& group);
-    CLI::Option* add_switch(CLI::App& app, const std::string& key, bool& variable, const std::string& help,
-                            const std::string& group);
+    CLI::Option* add(const Row& row, T& variable);
+    CLI::Option* add_switch(const Row& row, bool& variable);
+    void remember(const Row& row, std::function<std::string()> print);
 
+    struct Printer {
+        std::string key;
+        Affects affects;
+        std::function<std::string()> print;
+    };
+    CLI::App& app_;
     RunOptions& options_;
-    std::vector<std::pair<std::string, std::function<std::string()>>> printers_;
+    std::vector<Printer> printers_;
     int ranks_ = 0;  // acted on before MPI starts, see self_launch.hpp; here for its check and its help
 };
+
+/// Every option of `coseg run` as `options` has it.
+std::vector<OptionValue> option_values(RunOptions options);
 
 }  // namespace coseg

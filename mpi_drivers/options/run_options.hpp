@@ -1,80 +1,46 @@
 #pragma once
-// What `coseg run` is asked to do: every option's value, and the presets.
+// What `coseg run` is asked to do: the options of its stages, and the presets.
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "mpi_drivers/options/stage_options.hpp"
+
 namespace coseg {
 
 struct RunOptions {
-    std::string preset = "default";
-
-    std::vector<std::string> inputs;
-    int parts = 0;
-    std::string out;
-    std::string config;
-    bool force = false;
-    bool strict = false;
-    bool quiet = false;
-    bool verbose = false;
-    bool json_log = false;
-    bool keep_features = false;
-    bool profile = false;
-    bool keep_model = true;
-    std::uint64_t seed = 1;
-    std::string state;
-    double checkpoint_seconds = 60.0;
-
-    std::string remesh = "auto";
-
-    bool sheet = true;
-    bool html = true;
-    std::string view = "auto";
-    std::string up = "auto";
-
-    int patches = 50;
-    int oversegmentations = 3;
-    double cut_noise = 0.3;
-
-    int geodesic_samples = 300;
-    int bins = 100;
-    int word_sets = 1;
-    std::string histogram = "square-root";
-    std::string ranges = "adapted";
-    std::vector<double> feature_weights = {1.0, 0.5, 1.0, 2.0, 1.0};
-
-    std::string variant = "multi-feature";
-    std::string feature = "shape_diameter";  ///< variant single-feature only
-    std::string scope = "mesh";
-    std::string links = "auto";
-    double alpha = 0.01;
-    double beta = 0.1;
-    double lambda = 100.0;
-    std::string solver = "auto";
-    double gap = 1e-4;
-    int max_iterations = 10000;
-    double max_seconds = 3600.0;
-
-    std::string affinity = "links";
-    double adjacency = 5.0;
-    double overlap = 1.0;
-    double mesh_balance = 0.3;
-    std::string partition = "spectral";
-    int subsets = 0;  ///< meshes in a subset; 0: the collection is solved whole
-    bool segments = false;
-    bool choose = true;
-    std::string refine = "held";
-    bool articulated = true;
-    bool places = true;
+    std::string preset =
+        "default";  ///< for the report alone: what it stands for is in the options of the stages
+    DescriptionOptions description;
+    FeatureOptions features;
+    OptimiseOptions optimise;
+    PartitionOptions partition;
+    OutputOptions output;
+    ProcessOptions process;
 };
+
+/// Throws AgreedError(usage) where options cannot be joined. The same on every rank.
+void refuse_contradictions(const RunOptions& options);
+
+/// What labels new shapes like those of a run: how they are described and labelled is the run's, the rest
+/// `own`.
+RunOptions options_of_assignment(const RunOptions& run, const RunOptions& own);
+
+/// Gives every stage that draws at random the same seed.
+void set_seed(RunOptions& options, std::uint64_t seed);
+
+/// The options of a description with the descriptors to compute: all that count by default, whatever their
+/// weights, so that a state folder serves other weights too; others where they have a weight.
+DescriptionOptions description_options(const RunOptions& options);
 
 /// The names of the presets, in the order of --help.
 std::vector<std::string> preset_names();
 
-/// The options that a preset stands for: "default"; "paper" for the literal text of Hu, Fan and Liu (2012); and what the
-/// two are to be compared with: "single:FEATURE", "independent", "concatenated", "descriptor-space".
-/// Options given on the command line or in the configuration file override the preset's.
+/// The values that a preset stands for: "default"; "paper" for the literal text of Hu, Fan and Liu (2012);
+/// and what the two are to be compared with: "single:FEATURE", "independent", "concatenated",
+/// "descriptor-space". Options given on the command line or in the configuration file override the preset's.
+/// `preset`: one of preset_names().
 RunOptions preset_options(const std::string& preset);
 
 }  // namespace coseg

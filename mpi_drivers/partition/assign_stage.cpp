@@ -33,9 +33,9 @@ SubspaceProblem problem_of(const Comm& self, const RunModel& model, const PatchF
     problem.allowed_meshes.resize(static_cast<std::size_t>(meshes) + 1);
     problem.allowed_meshes.back().resize(static_cast<std::size_t>(meshes));
     std::iota(problem.allowed_meshes.back().begin(), problem.allowed_meshes.back().end(), 0);
-    problem.alpha = model.options.alpha;
-    problem.beta = model.options.beta;
-    problem.lambda = model.options.lambda;
+    problem.alpha = model.options.optimise.alpha;
+    problem.beta = model.options.optimise.beta;
+    problem.lambda = model.options.optimise.lambda;
     return problem;
 }
 
@@ -43,7 +43,7 @@ SubspaceProblem problem_of(const Comm& self, const RunModel& model, const PatchF
 Eigen::MatrixXd evidence_of(const SparseCoefficients& w, const RunModel& model, int count) {
     const auto known = static_cast<std::int64_t>(model.part_of_patch.size());
     const auto features = static_cast<std::size_t>(w.features);
-    Eigen::MatrixXd evidence = Eigen::MatrixXd::Zero(model.options.parts, count);
+    Eigen::MatrixXd evidence = Eigen::MatrixXd::Zero(model.options.partition.parts, count);
     for (int j = 0; j < count; ++j) {
         const auto column = static_cast<std::size_t>(known + j - w.columns.begin);
         for (auto k = static_cast<std::size_t>(w.offsets[column]);
@@ -110,7 +110,8 @@ struct MeshOutcome {
 };
 
 MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Collection& collection,
-                        const PatchFeatures& features, const RunModel& model, const RunOptions& options) {
+                        const PatchFeatures& features, const RunModel& model,
+                        const OptimiseOptions& options) {
     const int first = collection.numbering.first(mesh.mesh, 0);
     const int count = collection.numbering.count(mesh.mesh);
     const SubspaceProblem problem = problem_of(self, model, features, first, count);
@@ -161,7 +162,8 @@ std::vector<AssignedMesh> gather_figures(const Comm& comm, const std::vector<Mes
 }  // namespace
 
 Assigned assign_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunModel& model, const RunOptions& options) {
+                      const RunModel& model, const OptimiseOptions& options, StageLog& log) {
+    log.begin("assign");
     const Comm self(MPI_COMM_SELF);
     std::vector<MeshOutcome> outcomes;
     std::vector<Eigen::MatrixXd> parts_local;
@@ -180,16 +182,18 @@ Assigned assign_parts(const Comm& comm, const Collection& collection, const Patc
     for (const double part : all.reshaped()) assigned.cut.part_of_patch.push_back(static_cast<int>(part));
     Optimisation& optimisation = assigned.optimisation;
     static_cast<SolveSummary&>(optimisation.result) = summed(figures);
-    optimisation.variant = "multi-feature";
-    optimisation.scope = "mesh";
+    optimisation.variant = to_string(SubspaceVariant::multi_feature);
+    optimisation.scope = to_string(PenaltyScope::meshes);
     optimisation.links = static_cast<int>(model.mesh_names.size());
     for (const AssignedMesh& mesh : figures) optimisation.allowed_pairs += mesh.allowed_pairs;
-    for (const int h : features.feature_of) optimisation.features.emplace_back(feature_names[at(h)]);
+    for (const Descriptor& descriptor : features.descriptors)
+        optimisation.features.push_back(descriptor.name);
     SparseCoefficients& none = optimisation.result.coefficients;
     none.size = static_cast<std::int64_t>(assigned.cut.part_of_patch.size());
     none.columns = block_range(none.size, comm.size(), comm.rank(), coefficient_tile);
     none.features = static_cast<int>(optimisation.features.size());
     none.offsets.assign(static_cast<std::size_t>(none.columns.size()) + 1, 0);
+    log.end(describe(optimisation));
     return assigned;
 }
 

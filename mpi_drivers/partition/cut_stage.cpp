@@ -1,5 +1,7 @@
 #include "mpi_drivers/partition/cut_stage.hpp"
 
+#include <utility>
+
 #include "solvers/spectral/diffusion_clusters.hpp"
 
 namespace coseg {
@@ -38,23 +40,21 @@ void append(std::vector<CutStart>& starts, const std::vector<CutStart>& more) {
 }
 
 /// Whether the cut and its choice look at where patches lie.
-bool looks_at_positions(const PatchFeatures& features, const RunOptions& options) {
-    return options.choose && options.places && features.positions.cols() > 0;
+bool looks_at_positions(const Eigen::Matrix3Xd& positions, const PartitionOptions& options) {
+    return options.choose && options.places && positions.cols() > 0;
 }
 
-CutOptions cut_options(const PatchFeatures& features, const RunOptions& options) {
+CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions& options) {
     CutOptions cut;
     cut.parts = options.parts;
-    cut.form = options.affinity == "formula-8" ? AffinityForm::paper : AffinityForm::links;
+    cut.form = options.affinity;
+    cut.drop_below = options.drop_below;
+    cut.spectral.offset = options.cut_offset;
     cut.spectral.mesh_balance = options.mesh_balance;
-    if (options.preset == "paper") {
-        cut.drop_below = 1e-6;
-        cut.spectral.offset = 0.5;
-    }
     if (options.choose) {
         cut.starts = pooled_starts(options.parts);
         if (options.articulated) append(cut.starts, articulated_starts(options.parts));
-        if (looks_at_positions(features, options)) append(cut.starts, pooled_starts(options.parts, true));
+        if (looks_at_positions(positions, options)) append(cut.starts, pooled_starts(options.parts, true));
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
         const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
@@ -63,43 +63,50 @@ CutOptions cut_options(const PatchFeatures& features, const RunOptions& options)
     return cut;
 }
 
-}  // namespace
-
-std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, const RunOptions& options) {
+/// Of the descriptors that have a weight in the choice, and of positions.
+std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features,
+                                                 const PartitionOptions& options) {
     std::vector<ChoiceDescriptor> descriptors;
     if (!options.choose) return descriptors;
-    // Those that tell parts from each other in all of the labelled and generated collections; weights fitted on them,
-    // each family left out in turn (docs/method.md).
     for (std::size_t h = 0; h < features.histograms.size(); ++h) {
-        const auto feature = static_cast<Feature>(features.feature_of[h]);
-        const auto add = [&](BetweenPartVariance weight) {
-            descriptors.push_back({features.histograms[h].cast<float>(), weight});
-        };
-        if (feature == Feature::gaussian_curvature) add({.pooled = 0.0, .per_mesh = 1.4});
-        if (feature == Feature::shape_diameter) add({.pooled = 2.2, .per_mesh = 5.6});
+        const auto [pooled, per_mesh] = features.descriptors[h].partition;
+        if (pooled > 0.0 || per_mesh > 0.0)
+            descriptors.push_back(
+                {features.histograms[h].cast<float>(), {.pooled = pooled, .per_mesh = per_mesh}});
     }
-    if (looks_at_positions(features, options))
+    if (looks_at_positions(features.positions, options))
         descriptors.push_back({features.positions.cast<float>(), {.pooled = 1.0, .per_mesh = 0.0}});
     return descriptors;
 }
 
-CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                         const SparseCoefficients& coefficients, const RunOptions& options) {
-    const std::vector<int> mesh_of = collection.numbering.mesh_of();
-    if (options.partition == "diffusion") {
+}  // namespace
+
+PartitionInput partition_input(const Collection& collection, PatchFeatures features,
+                               const SparseCoefficients& coefficients, const PartitionOptions& options) {
+    std::vector<ChoiceDescriptor> choice = choice_descriptors(features, options);
+    FeatureMatrices clustered;
+    if (options.method == PartitionMethod::diffusion) clustered = std::move(features.histograms);
+    return {.collection = collection,
+            .coefficients = coefficients,
+            .patch_area = std::move(features.patch_area),
+            .positions = std::move(features.positions),
+            .choice = std::move(choice),
+            .histograms = std::move(clustered)};
+}
+
+CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const PartitionOptions& options) {
+    const std::vector<int> mesh_of = input.collection.numbering.mesh_of();
+    if (options.method == PartitionMethod::diffusion) {
         const DiffusionOptions diffusion{.parts = options.parts, .seed = options.seed};
-        return described_partition(diffusion_clusters(comm, features.histograms, diffusion), options.parts,
-                                   mesh_of, features.patch_area);
+        return described_partition(diffusion_clusters(comm, input.histograms, diffusion), options.parts,
+                                   mesh_of, input.patch_area);
     }
-    const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(collection);
-    const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(collection);
-    const std::vector<ChoiceDescriptor> made =
-        features.choice.empty() ? choice_descriptors(features, options) : std::vector<ChoiceDescriptor>{};
-    const std::vector<ChoiceDescriptor>& descriptors = features.choice.empty() ? made : features.choice;
+    const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(input.collection);
+    const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(input.collection);
     return partition_patches(
         comm,
-        {coefficients, neighbors, overlaps, mesh_of, features.patch_area, descriptors, &features.positions},
-        cut_options(features, options));
+        {input.coefficients, neighbors, overlaps, mesh_of, input.patch_area, input.choice, &input.positions},
+        cut_options(input.positions, options));
 }
 
 }  // namespace coseg

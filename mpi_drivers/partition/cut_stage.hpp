@@ -1,9 +1,11 @@
 #pragma once
-// From coefficients to the part of every patch: hands the relations of patches, in global numbers, to the cut.
+// From coefficients to the part of every patch: hands the relations of patches, in global numbers, to the
+// cut.
 
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
-#include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/options/stage_options.hpp"
+#include "solvers/partition/partition_choice.hpp"
 #include "solvers/partition/patch_partition.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
@@ -14,12 +16,23 @@ namespace coseg {
 std::vector<GlobalPatchNeighbors> local_neighbors(const Collection& collection);
 std::vector<GlobalPatchOverlap> local_overlaps(const Collection& collection);
 
-/// What the choice among several starts looks at, from the histograms; empty with a single start. Cuts find it in
-/// `features.choice`, or make it anew.
-std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features, const RunOptions& options);
+/// What a cut looks at.
+struct PartitionInput {
+    const Collection& collection;
+    const SparseCoefficients& coefficients;
+    std::vector<double> patch_area;        ///< N
+    Eigen::Matrix3Xd positions;            ///< 3 x N; 3 x 0 where what is cut are not patches
+    std::vector<ChoiceDescriptor> choice;  ///< of the choice among several starts; none with a single one
+    FeatureMatrices histograms;            ///< of --partition diffusion, which clusters them; none otherwise
+};
+
+/// Takes from the features what the cut looks at. The rest goes with them: in a large collection it is most
+/// of the memory, which the cut needs for its graphs. Collective where the features are the last of their
+/// kind.
+PartitionInput partition_input(const Collection& collection, PatchFeatures features,
+                               const SparseCoefficients& coefficients, const PartitionOptions& options);
 
 /// Collective. K must not exceed the number of patches. Throws AgreedError(not_converged).
-CutResult cut_into_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                         const SparseCoefficients& coefficients, const RunOptions& options);
+CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const PartitionOptions& options);
 
 }  // namespace coseg

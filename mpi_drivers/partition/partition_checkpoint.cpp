@@ -20,13 +20,6 @@ namespace {
 constexpr const char* cut_format = "coseg cut";
 constexpr int cut_version = 5;
 
-/// These change where things are, what is said or what is drawn.
-constexpr std::array<const char*, 18> without_effect{
-    "profile", "keep-model",  "out",          "state",   "checkpoint-seconds",
-    "config",  "force",       "quiet",        "verbose", "json-log",
-    "sheet",   "html",        "view",         "up",      "refine",
-    "strict",  "max-seconds", "keep-features"};
-
 /// Tile by tile, as columns are owned.
 ContentHash hash_of_coefficients(const Comm& comm, const SparseCoefficients& w) {
     std::vector<ContentHash> tiles;
@@ -73,36 +66,26 @@ ContentHash hash_of_relations(const Comm& comm, const Collection& collection) {
     return hasher.result();
 }
 
-ContentHash cut_key(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                    const SparseCoefficients& coefficients, const std::string& options) {
+ContentHash cut_key(const Comm& comm, const PartitionInput& input, const std::string& options) {
     ContentHasher hasher;
     hasher.add(source_fingerprint(KeptPiece::cuts));
     hasher.add(std::int64_t{cut_version});
     hasher.add(options);
-    hasher.add(hash_of_coefficients(comm, coefficients).hex());
-    hasher.add(hash_of_relations(comm, collection).hex());
-    const std::vector<int> mesh_of = collection.numbering.mesh_of();
+    hasher.add(hash_of_coefficients(comm, input.coefficients).hex());
+    hasher.add(hash_of_relations(comm, input.collection).hex());
+    const std::vector<int> mesh_of = input.collection.numbering.mesh_of();
     hasher.add(std::span<const int>(mesh_of));
-    add_value(hasher, features.patch_area);
-    add_value(hasher, features.positions);
-    for (const ChoiceDescriptor& d : features.choice) add_value(hasher, d.histograms);
-    if (features.choice.empty() && features.histograms.size() > 0) {  // the cut then makes them from these
-        const auto entries =
-            static_cast<std::size_t>(features.histograms.dimension() * features.histograms.columns());
-        hasher.add(std::span<const double>(features.histograms.data(), entries));
-    }
+    add_value(hasher, input.patch_area);
+    add_value(hasher, input.positions);
+    for (const ChoiceDescriptor& d : input.choice) add_value(hasher, d.histograms);
     return hasher.result();
 }
 
 }  // namespace
 
-std::string cut_option_text(const std::vector<std::pair<std::string, std::string>>& resolved,
+std::string cut_option_text(const std::vector<OptionValue>& options,
                             const std::vector<std::string>& petsc_arguments) {
-    std::string text;
-    for (const auto& [name, value] : resolved) {
-        if (std::find(without_effect.begin(), without_effect.end(), name) == without_effect.end())
-            text += name + "=" + value + "\n";
-    }
+    std::string text = option_text(options, Affects::cut);
     for (const std::string& argument : petsc_arguments) text += argument + "\n";
     return text;
 }
@@ -123,13 +106,10 @@ CutResult read_cut(const std::string& path) {
     return cut;
 }
 
-CutResult PartitionCheckpoint::cut(const Collection& collection, const PatchFeatures& features,
-                                   const SparseCoefficients& coefficients, const RunOptions& options) {
+CutResult PartitionCheckpoint::cut(const PartitionInput& input, const PartitionOptions& options) {
     // Clusters of descriptors take no longer than looking them up.
-    if (options.partition == "diffusion")
-        return cut_into_parts(comm_, collection, features, coefficients, options);
-    const std::string file =
-        state_.folder().cut_file(cut_key(comm_, collection, features, coefficients, options_));
+    if (options.method == PartitionMethod::diffusion) return cut_into_parts(comm_, input, options);
+    const std::string file = state_.folder().cut_file(cut_key(comm_, input, options_));
     std::vector<std::string> damage;
     std::optional<CutResult> found;
     // Every rank reads, so that a file which one of them cannot read is given up by all.
@@ -151,7 +131,7 @@ CutResult PartitionCheckpoint::cut(const Collection& collection, const PatchFeat
     if (!damage.empty())
         warnings_.push_back(damage.front() + "; it is set aside as " + aside + " and the cut is made anew");
     state_.end_if_asked(comm_, "all meshes and the optimiser's tiles");
-    CutResult cut = cut_into_parts(comm_, collection, features, coefficients, options);
+    CutResult cut = cut_into_parts(comm_, input, options);
     agree(comm_, [&] {
         if (!comm_.is_root()) return;
         make_parent_folders(file);
@@ -160,11 +140,9 @@ CutResult PartitionCheckpoint::cut(const Collection& collection, const PatchFeat
     return cut;
 }
 
-CutResult cut_or_found(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                       const SparseCoefficients& coefficients, const RunOptions& options,
+CutResult cut_or_found(const Comm& comm, const PartitionInput& input, const PartitionOptions& options,
                        PartitionCheckpoint* checkpoint) {
-    return checkpoint != nullptr ? checkpoint->cut(collection, features, coefficients, options)
-                                 : cut_into_parts(comm, collection, features, coefficients, options);
+    return checkpoint != nullptr ? checkpoint->cut(input, options) : cut_into_parts(comm, input, options);
 }
 
 }  // namespace coseg

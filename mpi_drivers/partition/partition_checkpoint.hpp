@@ -4,28 +4,29 @@
 #include <string>
 #include <vector>
 
+#include "mpi_drivers/options/option_value.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
 #include "mpi_drivers/process/run_state.hpp"
 
 namespace coseg {
 
-/// What of the options the cut depends on, as one text: all but those that name places, or that choose what is said and drawn.
-/// resolved: every option's name and value; petsc_arguments: what follows `--` on the command line.
-std::string cut_option_text(const std::vector<std::pair<std::string, std::string>>& resolved,
+/// What of a run's command line a cut depends on, as one text: the options that affect it or a stage before
+/// it, and petsc_arguments, which follow `--`.
+std::string cut_option_text(const std::vector<OptionValue>& options,
                             const std::vector<std::string>& petsc_arguments);
 
-/// Finished cuts, DIR/cuts/HASH.h5: eigenvalues, terms and score of every start, and the part of every patch. The hash is of
-/// all that a cut depends on - coefficients, relations and areas of the patches, options, program - so it holds on any number of ranks and for
-/// any part of a collection.
+/// Finished cuts, DIR/cuts/HASH.h5: eigenvalues, terms and score of every start, and the part of every patch.
+/// The hash is of all that a cut depends on - coefficients, relations and areas of the patches, options,
+/// program - so it holds on any number of ranks and for any part of a collection.
 class PartitionCheckpoint {
   public:
     PartitionCheckpoint(const Comm& comm, const RunState& state, std::string options)
         : comm_(comm), state_(state), options_(std::move(options)) {}
 
-    /// As cut_into_parts, from the folder if it is there. Collective; throws what cut_into_parts does, AgreedError(output) if
-    /// the outcome cannot be written, AgreedError(checkpointed) if a rank has been asked to end before the cut.
-    CutResult cut(const Collection& collection, const PatchFeatures& features,
-                  const SparseCoefficients& coefficients, const RunOptions& options);
+    /// As cut_into_parts, from the folder if it is there. Collective; throws what cut_into_parts does,
+    /// AgreedError(output) if the outcome cannot be written, AgreedError(checkpointed) if a rank has been
+    /// asked to end before the cut.
+    CutResult cut(const PartitionInput& input, const PartitionOptions& options);
 
     /// The same on all ranks: cuts that were found, and files that were damaged, a sentence each.
     [[nodiscard]] int found_count() const noexcept { return found_; }
@@ -40,8 +41,7 @@ class PartitionCheckpoint {
 };
 
 /// cut_into_parts, through the checkpoint if there is one. Collective; throws as PartitionCheckpoint::cut.
-CutResult cut_or_found(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                       const SparseCoefficients& coefficients, const RunOptions& options,
+CutResult cut_or_found(const Comm& comm, const PartitionInput& input, const PartitionOptions& options,
                        PartitionCheckpoint* checkpoint);
 
 /// A cut as a file. Throws Error(output).

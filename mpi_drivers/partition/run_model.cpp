@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "io/files/hdf5_file.hpp"
@@ -31,60 +32,81 @@ std::vector<int> kept_meshes(const std::vector<MeshFacts>& meshes, std::uint64_t
 
 void write_options(Hdf5Writer& file, const RunOptions& options) {
     file.attribute("source_fingerprint", source_fingerprint(KeptPiece::features));
-    file.attribute("parts", std::int64_t{options.parts});
-    file.attribute("seed", static_cast<std::int64_t>(options.seed));
-    file.attribute("remesh", options.remesh);
-    file.attribute("patches", std::int64_t{options.patches});
-    file.attribute("oversegmentations", std::int64_t{options.oversegmentations});
-    file.attribute("cut-noise", options.cut_noise);
-    file.attribute("geodesic-samples", std::int64_t{options.geodesic_samples});
-    file.attribute("bins", std::int64_t{options.bins});
-    file.attribute("word-sets", std::int64_t{options.word_sets});
-    file.attribute("histogram", options.histogram);
-    file.attribute("ranges", options.ranges);
-    file.write("feature-weights", options.feature_weights);
-    file.attribute("alpha", options.alpha);
-    file.attribute("beta", options.beta);
-    file.attribute("lambda", options.lambda);
-    file.attribute("gap", options.gap);
-    file.attribute("refine", options.refine);
+    const DescriptionOptions& description = options.description;
+    file.attribute("parts", std::int64_t{options.partition.parts});
+    file.attribute("seed", static_cast<std::int64_t>(description.seed));
+    file.attribute("remesh", to_string(description.remesh));
+    file.attribute("patches", std::int64_t{description.patches});
+    file.attribute("oversegmentations", std::int64_t{description.oversegmentations});
+    file.attribute("cut-noise", description.cut_noise);
+    file.attribute("geodesic-samples", std::int64_t{description.geodesic_samples});
+    file.attribute("bins", std::int64_t{options.features.bins});
+    file.attribute("word-sets", std::int64_t{options.features.word_sets});
+    file.attribute("histogram", to_string(options.features.histogram));
+    file.attribute("ranges", to_string(options.features.ranges));
+    file.write("feature-weights", options.features.weights);
+    file.attribute("face-feature-weight", options.features.face_feature_weight);
+    file.attribute("alpha", options.optimise.alpha);
+    file.attribute("beta", options.optimise.beta);
+    file.attribute("lambda", options.optimise.lambda);
+    file.attribute("gap", options.optimise.gap);
+    file.attribute("refine", to_string(options.output.refine));
+}
+
+template <NamedEnum E>
+E read_enum(const Hdf5Reader& file, const std::string& name) {
+    const std::optional<E> value = named<E>(file.text(name));
+    if (value) return *value;
+    throw Error(ExitCode::input, file.path() + ": '" + name + "' has an unknown value; run coseg run again");
 }
 
 RunOptions read_options(const Hdf5Reader& file) {
     const auto number = [&](const char* name) { return static_cast<int>(file.integer(name)); };
     RunOptions options;
-    options.parts = number("parts");
-    options.seed = static_cast<std::uint64_t>(file.integer("seed"));
-    options.remesh = file.text("remesh");
-    options.patches = number("patches");
-    options.oversegmentations = number("oversegmentations");
-    options.cut_noise = file.number("cut-noise");
-    options.geodesic_samples = number("geodesic-samples");
-    options.bins = number("bins");
-    options.word_sets = number("word-sets");
-    options.histogram = file.text("histogram");
-    options.ranges = file.text("ranges");
-    options.feature_weights = file.read<double>("feature-weights");
-    options.alpha = file.number("alpha");
-    options.beta = file.number("beta");
-    options.lambda = file.number("lambda");
-    options.gap = file.number("gap");
-    options.refine = file.text("refine");
+    set_seed(options, static_cast<std::uint64_t>(file.integer("seed")));
+    options.partition.parts = number("parts");
+    options.description.remesh = read_enum<RemeshMode>(file, "remesh");
+    options.description.patches = number("patches");
+    options.description.oversegmentations = number("oversegmentations");
+    options.description.cut_noise = file.number("cut-noise");
+    options.description.geodesic_samples = number("geodesic-samples");
+    options.features.bins = number("bins");
+    options.features.word_sets = number("word-sets");
+    options.features.histogram = read_enum<HistogramScaling>(file, "histogram");
+    options.features.ranges = read_enum<BinRanges>(file, "ranges");
+    options.features.weights = file.read<double>("feature-weights");
+    options.features.face_feature_weight = file.number("face-feature-weight");
+    options.optimise.alpha = file.number("alpha");
+    options.optimise.beta = file.number("beta");
+    options.optimise.lambda = file.number("lambda");
+    options.optimise.gap = file.number("gap");
+    options.output.refine = read_enum<RefineMode>(file, "refine");
     return options;
 }
 
-void write_bins(Hdf5Writer& file, const PatchFeatures& features) {
-    std::size_t scalar = 0;
-    for (const int h : features.feature_of) {
-        if (static_cast<Feature>(h) == Feature::shape_context) continue;
-        const FeatureRange& range = features.bins.ranges[scalar++];
-        file.write(std::string("ranges/") + feature_names[at(h)], range.edges);
-    }
-    for (std::size_t set = 0; set < features.bins.words.size(); ++set) {
-        const Eigen::MatrixXf& words = features.bins.words[set];
-        file.write("words/" + std::to_string(set),
-                   std::span<const float>(words.data(), static_cast<std::size_t>(words.size())),
-                   {static_cast<std::uint64_t>(words.cols()), static_cast<std::uint64_t>(words.rows())});
+void write_float_matrix(Hdf5Writer& file, const std::string& name, const Eigen::MatrixXf& matrix,
+                        bool compressed) {
+    file.write(name, std::span<const float>(matrix.data(), at(matrix.size())),
+               {at(matrix.cols()), at(matrix.rows())}, compressed);
+}
+
+std::string range_name(const Descriptor& descriptor) { return "ranges/" + descriptor.name; }
+std::string words_name(const Descriptor& descriptor, std::size_t set) {
+    return "words/" + descriptor.name + "/" + std::to_string(set);
+}
+
+void write_bins(Hdf5Writer& file, const ModelPatches& patches) {
+    const int dimensions = patches.descriptors.empty() ? 0 : patches.descriptors.back().given_dimensions;
+    file.attribute("face-feature-dimensions", std::int64_t{dimensions});
+    for (std::size_t h = 0; h < patches.bins.size(); ++h) {
+        const Descriptor& descriptor = patches.descriptors[h];
+        if (const auto* range = std::get_if<FeatureRange>(&patches.bins[h])) {
+            file.write(range_name(descriptor), range->edges);
+            continue;
+        }
+        const auto& words = std::get<std::vector<Eigen::MatrixXf>>(patches.bins[h]);
+        for (std::size_t set = 0; set < words.size(); ++set)
+            write_float_matrix(file, words_name(descriptor, set), words[set], false);
     }
 }
 
@@ -95,17 +117,27 @@ Eigen::MatrixXf read_float_matrix(const Hdf5Reader& file, const std::string& nam
                                              static_cast<Eigen::Index>(extent.at(0)));
 }
 
+FeatureBins read_bins(const Hdf5Reader& file, const Descriptor& descriptor) {
+    if (descriptor.bins != BinKind::words)
+        return FeatureRange{RangeKind::global_percentile, file.read<double>(range_name(descriptor))};
+    std::vector<Eigen::MatrixXf> words;
+    for (std::size_t set = 0; file.has(words_name(descriptor, set)); ++set)
+        words.push_back(read_float_matrix(file, words_name(descriptor, set)));
+    return words;
+}
+
 void read_features(const Hdf5Reader& file, RunModel& model) {
-    for (int h = 0; h < feature_total; ++h) {
-        const std::string name = feature_names[at(h)];
-        if (!file.has("features/" + name)) continue;
-        model.feature_of.push_back(h);
-        model.histograms.push_back(read_float_matrix(file, "features/" + name).cast<double>());
-        if (static_cast<Feature>(h) != Feature::shape_context)
-            model.bins.ranges.push_back({RangeKind::global_percentile, file.read<double>("ranges/" + name)});
+    std::vector<Descriptor> table = descriptor_table();
+    model.face_feature_dimensions = static_cast<int>(file.integer("face-feature-dimensions"));
+    if (model.face_feature_dimensions > 0)
+        table.push_back(face_features_descriptor(model.face_feature_dimensions,
+                                                 model.options.features.face_feature_weight));
+    for (const Descriptor& descriptor : table) {
+        const std::string name = "features/" + descriptor.name;
+        if (!file.has(name)) continue;
+        model.histograms.push_back(read_float_matrix(file, name).cast<double>());
+        model.bins.push_back(read_bins(file, descriptor));
     }
-    for (int set = 0; file.has("words/" + std::to_string(set)); ++set)
-        model.bins.words.push_back(read_float_matrix(file, "words/" + std::to_string(set)));
 }
 
 bool fits_together(const RunModel& model) {
@@ -118,12 +150,13 @@ bool fits_together(const RunModel& model) {
         std::all_of(model.histograms.begin(), model.histograms.end(),
                     [&](const Eigen::MatrixXd& x) { return static_cast<std::size_t>(x.cols()) == patches; });
     return patches > 0 && !model.histograms.empty() && columns_fit && model.mesh_of.size() == patches &&
-           below(model.mesh_of, model.mesh_names.size()) && model.options.feature_weights.size() == 5 &&
-           below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.parts, 0)));
+           below(model.mesh_of, model.mesh_names.size()) &&
+           model.options.features.weights.size() == descriptor_table().size() &&
+           below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.partition.parts, 0)));
 }
 
-void write_patches(Hdf5Writer& file, const Collection& collection, const PatchFeatures& features,
-                   const ModelPatches& patches, const std::vector<int>& part_of_patch) {
+void write_patches(Hdf5Writer& file, const Collection& collection, const ModelPatches& patches,
+                   const std::vector<int>& part_of_patch) {
     std::vector<std::int32_t> mesh_of;
     std::vector<std::int32_t> parts;
     std::vector<std::string> names;
@@ -134,10 +167,7 @@ void write_patches(Hdf5Writer& file, const Collection& collection, const PatchFe
     }
     for (const int p : patches.columns) parts.push_back(part_of_patch[at(p)]);
     for (std::size_t h = 0; h < patches.histograms.size(); ++h) {
-        const Eigen::MatrixXf& kept = patches.histograms[h];
-        file.write(std::string("features/") + feature_names[at(features.feature_of[h])],
-                   std::span<const float>(kept.data(), static_cast<std::size_t>(kept.size())),
-                   {static_cast<std::uint64_t>(kept.cols()), static_cast<std::uint64_t>(kept.rows())}, true);
+        write_float_matrix(file, "features/" + patches.descriptors[h].name, patches.histograms[h], true);
     }
     file.write("mesh_of", mesh_of);
     file.write("part_of_patch", parts);
@@ -148,6 +178,8 @@ void write_patches(Hdf5Writer& file, const Collection& collection, const PatchFe
 
 ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed) {
     ModelPatches patches;
+    patches.descriptors = features.descriptors;
+    patches.bins = features.bins;
     patches.meshes = kept_meshes(collection.meshes, seed);
     for (const int mesh : patches.meshes) {
         const int first = collection.numbering.first(mesh, 0);
@@ -158,20 +190,49 @@ ModelPatches model_patches(const Collection& collection, const PatchFeatures& fe
     return patches;
 }
 
-void write_run_model(const Comm& comm, const std::string& path, const Collection& collection,
-                     const PatchFeatures& features, const ModelPatches& patches,
-                     const std::vector<int>& part_of_patch, const RunOptions& options) {
+void write_run_model(const Comm& comm, const std::string& folder, const Collection& collection,
+                     const ModelPatches& patches, const std::vector<int>& part_of_patch,
+                     const RunOptions& options) {
     agree(comm, [&] {
         if (!comm.is_root()) return;
-        Hdf5Writer file(path, model_format, model_version);
+        Hdf5Writer file(folder + "/" + model_file, model_format, model_version);
         file.summary("model of " + std::to_string(collection.meshes.size()) + " meshes, " +
-                     std::to_string(patches.meshes.size()) + " kept, " + std::to_string(options.parts) +
-                     " parts");
+                     std::to_string(patches.meshes.size()) + " kept, " +
+                     std::to_string(options.partition.parts) + " parts");
         write_options(file, options);
-        write_bins(file, features);
-        write_patches(file, collection, features, patches, part_of_patch);
+        write_bins(file, patches);
+        write_patches(file, collection, patches, part_of_patch);
         file.commit();
     });
+}
+
+void refuse_other_face_features(const RunModel& model, const FeatureOptions& own) {
+    const bool is_given = !own.face_features.empty();
+    if (is_given && model.face_feature_dimensions == 0)
+        throw AgreedError(ExitCode::usage, "--face-features: the run was made without it; leave it out");
+    if (!is_given && model.face_feature_dimensions > 0)
+        throw AgreedError(
+            ExitCode::usage,
+            "--face-features: the run was made with it; give the folder of what the new shapes have");
+}
+
+void refuse_other_dimensions(const RunModel& model, const CollectionDescriptors& descriptors) {
+    const int given = descriptors.table.back().given_dimensions;
+    if (given == model.face_feature_dimensions) return;
+    throw AgreedError(ExitCode::input, "--face-features: there are " + std::to_string(given) +
+                                           " numbers a face, but the run was made with " +
+                                           std::to_string(model.face_feature_dimensions));
+}
+
+RunModel agreed_run_model(const Comm& comm, const std::string& folder, const StageLog& log) {
+    RunModel model;
+    agree(comm, [&] { model = read_run_model(folder); });
+    if (!model.same_build) {
+        log.warn(folder +
+                 " was made by a coseg that computes features from other sources or settings: where these "
+                 "differ in result, labels suffer; run coseg run again to be sure");
+    }
+    return model;
 }
 
 RunModel read_run_model(const std::string& folder) {

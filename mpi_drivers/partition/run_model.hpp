@@ -9,42 +9,56 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/run_options.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/parallel/stage_log.hpp"
 
 namespace coseg {
 
 inline constexpr const char* model_file = "model.h5";
 inline constexpr const char* model_format = "coseg model";
-inline constexpr int model_version = 1;
+inline constexpr int model_version = 2;
 
-/// The patches of the run's meshes, or of a hashed sample of them: as many meshes as a patch of a run is linked to
-/// (solvers/subspace/mesh_links.hpp), so that the file stays small for any collection.
+/// The patches of the run's meshes, or of a hashed sample of them: as many meshes as a patch of a run is
+/// linked to (solvers/subspace/mesh_links.hpp), so that the file stays small for any collection.
 struct RunModel {
     RunOptions
         options;  ///< those on which descriptions, features, penalties and labels depend; defaults elsewhere
-    FeatureBins bins;
-    std::vector<int> feature_of;
+    std::vector<FeatureBins> bins;            ///< of each feature, in the order of the descriptors
     std::vector<Eigen::MatrixXd> histograms;  ///< as in PatchFeatures, rounded to single precision
-    std::vector<int> mesh_of;                 ///< of each patch, 0 .. meshes kept - 1
-    std::vector<std::string> mesh_names;      ///< of the meshes kept
+    int face_feature_dimensions = 0;      ///< numbers a face that --face-features gave; 0: it was not given
+    std::vector<int> mesh_of;             ///< of each patch, 0 .. meshes kept - 1
+    std::vector<std::string> mesh_names;  ///< of the meshes kept
     std::vector<int> part_of_patch;
     bool same_build = true;  ///< written by this build of coseg
 };
 
-/// The patches that a model keeps, taken while the histograms are there.
+/// The patches that a model keeps, and how their features were made.
 struct ModelPatches {
+    std::vector<Descriptor> descriptors;      ///< as in PatchFeatures
+    std::vector<FeatureBins> bins;            ///< likewise
     std::vector<int> meshes;                  ///< of the collection, ascending
     std::vector<int> columns;                 ///< their patches, ascending
     std::vector<Eigen::MatrixXf> histograms;  ///< as in PatchFeatures, of these patches
 };
 ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed);
 
-/// Writes the model on rank 0, where alone `patches` is asked for. Collective; throws AgreedError(output).
-void write_run_model(const Comm& comm, const std::string& path, const Collection& collection,
-                     const PatchFeatures& features, const ModelPatches& patches,
-                     const std::vector<int>& part_of_patch, const RunOptions& options);
+/// Writes the model into the folder on rank 0, where alone `patches` is asked for. Collective; throws
+/// AgreedError(output).
+void write_run_model(const Comm& comm, const std::string& folder, const Collection& collection,
+                     const ModelPatches& patches, const std::vector<int>& part_of_patch,
+                     const RunOptions& options);
 
-/// The model of the run in `folder`. Throws Error(input) where the folder holds no run, the run kept no model, or the
-/// model is damaged or of another version.
+/// Features that users give must be given of the run's shapes and of the new ones, or of neither. Throws
+/// AgreedError(usage).
+void refuse_other_face_features(const RunModel& model, const FeatureOptions& own);
+/// Throws AgreedError(input) where the new shapes have another number of them for a face than the run's.
+void refuse_other_dimensions(const RunModel& model, const CollectionDescriptors& descriptors);
+
+/// The model of the run in `folder`, on every rank; warns where another build of coseg has made it.
+/// Collective; throws AgreedError as read_run_model throws.
+RunModel agreed_run_model(const Comm& comm, const std::string& folder, const StageLog& log);
+
+/// The model of the run in `folder`. Throws Error(input) where the folder holds no run, the run kept no
+/// model, or the model is damaged or of another version.
 RunModel read_run_model(const std::string& folder);
 
 }  // namespace coseg

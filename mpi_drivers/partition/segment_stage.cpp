@@ -60,7 +60,8 @@ Segments find_segments(const Comm& comm, const Collection& collection,
     return segments;
 }
 
-/// Neighbourhoods of a mesh's segments: boundary lengths added over its over-segmentations, concavity weighted by them.
+/// Neighbourhoods of a mesh's segments: boundary lengths added over its over-segmentations, concavity
+/// weighted by them.
 std::vector<PatchNeighbors> neighbors_of(const MeshDescription& mesh, const PatchNumbering& numbering,
                                          const Segments& segments) {
     std::map<std::pair<int, int>, std::pair<double, double>> sums;  // length, length * concavity
@@ -105,33 +106,33 @@ Collection segment_collection(const Collection& collection, const Segments& segm
 
 Eigen::MatrixXd segment_histograms(const FeatureMatrices::ConstBlock& patches,
                                    const std::vector<double>& area, const Segments& segments,
-                                   const std::string& scaling) {
+                                   HistogramScaling scaling) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(patches.rows(), segments.first_of.back());
     Eigen::VectorXd areas = Eigen::VectorXd::Zero(segments.first_of.back());
     for (Eigen::Index i = 0; i < patches.cols(); ++i) {
         const int s = segments.of_patch[at(static_cast<int>(i))];
-        const double a = scaling == "counts" ? 1.0 : area[at(static_cast<int>(i))];
-        if (scaling == "square-root") {
+        const double a = scaling == HistogramScaling::counts ? 1.0 : area[at(static_cast<int>(i))];
+        if (scaling == HistogramScaling::square_root) {
             sums.col(s) += a * patches.col(i).cwiseAbs2();
         } else {
             sums.col(s) += a * patches.col(i);
         }
         areas[s] += a;
     }
-    if (scaling == "counts") return sums;
+    if (scaling == HistogramScaling::counts) return sums;
     for (Eigen::Index s = 0; s < sums.cols(); ++s) sums.col(s) /= areas[s] > 0.0 ? areas[s] : 1.0;
-    return scaling == "square-root" ? sums.cwiseSqrt().eval() : sums;
+    return scaling == HistogramScaling::square_root ? sums.cwiseSqrt().eval() : sums;
 }
 
-PatchFeatures segment_features(const PatchFeatures& features, const Segments& segments, int oversegmentations,
-                               const RunOptions& options) {
+PatchFeatures segment_features(const PatchFeatures& features, const Segments& segments,
+                               int oversegmentations) {
     PatchFeatures result;
     std::vector<Eigen::MatrixXd> histograms;
     for (std::size_t h = 0; h < features.histograms.size(); ++h)
         histograms.push_back(
-            segment_histograms(features.histograms[h], features.patch_area, segments, options.histogram));
+            segment_histograms(features.histograms[h], features.patch_area, segments, features.scaling));
     result.histograms = histograms;
-    result.feature_of = features.feature_of;
+    result.descriptors = features.descriptors;
     result.patch_area.assign(at(segments.first_of.back()), 0.0);
     for (std::size_t i = 0; i < features.patch_area.size(); ++i)
         result.patch_area[at(segments.of_patch[i])] += features.patch_area[i] / oversegmentations;
@@ -141,19 +142,18 @@ PatchFeatures segment_features(const PatchFeatures& features, const Segments& se
 }  // namespace
 
 CutResult partition_segments(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                             const CutResult& first, const RunOptions& options, SolverCheckpoint* checkpoint,
-                             PartitionCheckpoint* cuts) {
+                             const CutResult& first, const PartitionTask& task) {
     const Segments segments = find_segments(comm, collection, first.part_of_patch);
     const Collection whole = segment_collection(collection, segments);
-    const PatchFeatures described =
-        segment_features(features, segments, collection.numbering.oversegmentations(), options);
-    const Optimisation optimisation = optimise(comm, whole, described, options, checkpoint);
-    const CutResult cut =
-        cut_or_found(comm, whole, described, optimisation.result.coefficients, options, cuts);
+    PatchFeatures described = segment_features(features, segments, collection.numbering.oversegmentations());
+    const Optimisation optimisation = optimise(comm, whole, described, task.optimise, task.tiles);
+    const CutResult cut = cut_or_found(
+        comm, partition_input(whole, std::move(described), optimisation.result.coefficients, task.partition),
+        task.partition, task.cuts);
     std::vector<int> part_of_patch;
     for (const int segment : segments.of_patch) part_of_patch.push_back(cut.part_of_patch[at(segment)]);
-    CutResult result = described_partition(part_of_patch, options.parts, collection.numbering.mesh_of(),
-                                           features.patch_area);
+    CutResult result = described_partition(part_of_patch, task.partition.parts,
+                                           collection.numbering.mesh_of(), features.patch_area);
     result.starts = first.starts;
     result.chosen = first.chosen;
     return result;

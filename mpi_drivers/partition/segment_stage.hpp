@@ -3,17 +3,16 @@
 
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
-#include "mpi_drivers/partition/partition_checkpoint.hpp"
-#include "solvers/subspace/solver_checkpoint.hpp"
+#include "mpi_drivers/partition/partition_task.hpp"
 
 namespace coseg {
 
-/// Segments of a mesh are the connected pieces of one part, over neighbourhoods and overlaps of patches. Their histograms
-/// are the area-weighted means of their patches' (of the squares where histograms are square-rooted, sums of counts); they
-/// are optimised and cut as patches are, and every patch takes its segment's part. `first` is the first pass, whose starts
-/// the result keeps. The checkpoints may be null. Source: the paper, section 4. Collective. Throws as partition_subsets.
+/// Segments of a mesh are the connected pieces of one part, over neighbourhoods and overlaps of patches.
+/// Their histograms are the area-weighted means of their patches' (of the squares where histograms are
+/// square-rooted, sums of counts); they are optimised and cut as patches are, and every patch takes its
+/// segment's part. `first` is the first pass, whose starts the result keeps. Source: the paper, section 4.
+/// Collective. Throws as partition_subsets.
 CutResult partition_segments(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                             const CutResult& first, const RunOptions& options, SolverCheckpoint* checkpoint,
-                             PartitionCheckpoint* cuts);
+                             const CutResult& first, const PartitionTask& task);
 
 }  // namespace coseg

@@ -41,7 +41,7 @@ PartCollection part_of_collection(const Comm& comm, const Collection& collection
             part.collection.local.push_back(relations_of(mesh, static_cast<int>(place - meshes.begin())));
     }
     part.features.histograms = features.histograms.chosen(comm, part.patch_of);
-    part.features.feature_of = features.feature_of;
+    part.features.descriptors = features.descriptors;
     for (const int patch : part.patch_of) part.features.patch_area.push_back(features.patch_area[at(patch)]);
     part.features.positions = features.positions(Eigen::all, part.patch_of);
     return part;

@@ -14,7 +14,8 @@ struct PartCollection {
     std::vector<int> patch_of;  ///< per patch its number in the whole collection
 };
 
-/// `meshes`: numbers in the collection, ascending. Collective; the same on every rank but for the local meshes.
+/// `meshes`: numbers in the collection, ascending. Collective; the same on every rank but for the local
+/// meshes.
 PartCollection part_of_collection(const Comm& comm, const Collection& collection,
                                   const PatchFeatures& features, const std::vector<int>& meshes);
 

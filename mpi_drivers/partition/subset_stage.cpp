@@ -104,8 +104,8 @@ Matching match_parts(const std::vector<int>& part_of_patch, const std::vector<in
 }  // namespace
 
 SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                                const RunOptions& options, SolverCheckpoint* checkpoint,
-                                PartitionCheckpoint* cuts) {
+                                const PartitionTask& task) {
+    const PartitionOptions& options = task.partition;
     std::vector<std::string> names;
     for (const MeshFacts& mesh : collection.meshes) names.push_back(mesh.name);
     const OverlappingSubsets plan = overlapping_subsets(names, options.subsets, options.seed);
@@ -117,9 +117,11 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
     double agreement = 0.0;
     for (std::size_t s = 0; s < plan.subsets.size(); ++s) {
         PartCollection part = part_of_collection(comm, collection, features, plan.subsets[s]);
-        Optimisation optimised = optimise(comm, part.collection, part.features, options, checkpoint);
-        const CutResult cut =
-            cut_or_found(comm, part.collection, part.features, optimised.result.coefficients, options, cuts);
+        Optimisation optimised = optimise(comm, part.collection, part.features, task.optimise, task.tiles);
+        const CutResult cut = cut_or_found(comm,
+                                           partition_input(part.collection, std::move(part.features),
+                                                           optimised.result.coefficients, options),
+                                           options, task.cuts);
         take_columns(comm, optimised.result.coefficients, part.patch_of, columns);
         add(outcome.optimisation, std::move(optimised), s == 0);
         const Matching matching =

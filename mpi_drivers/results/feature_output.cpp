@@ -16,7 +16,7 @@ void write_features(const Comm& comm, const Collection& collection, const PatchF
     agree(comm, [&] {
         if (!comm.is_root()) return;
         FeatureFile file;
-        for (const int h : features.feature_of) file.names.emplace_back(feature_names[at(h)]);
+        for (const Descriptor& descriptor : features.descriptors) file.names.push_back(descriptor.name);
         file.features = features.histograms.matrices();
         file.mesh_of = collection.numbering.mesh_of();
         for (const MeshFacts& mesh : collection.meshes) file.mesh_names.push_back(mesh.name);

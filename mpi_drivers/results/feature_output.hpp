@@ -1,5 +1,6 @@
 #pragma once
-// `coseg run --keep-features`: what the optimiser and the cut were given, as a file that `coseg cluster` reads.
+// `coseg run --keep-features`: what the optimiser and the cut were given, as a file that `coseg cluster`
+// reads.
 
 #include <string>
 

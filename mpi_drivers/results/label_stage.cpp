@@ -1,7 +1,5 @@
 #include "mpi_drivers/results/label_stage.hpp"
 
-#include <string>
-
 #include "solvers/boundaries/fuzzy_cut.hpp"
 #include "src/base/index.hpp"
 #include "src/patches/face_labels.hpp"
@@ -33,10 +31,10 @@ std::vector<double> area_shares(const Eigen::VectorXd& area, const std::vector<i
 constexpr double boundary_reach = 0.025;
 
 std::vector<int> refined(const MeshDescription& mesh, const std::vector<int>& part_of_face,
-                         const std::string& refinement) {
-    if (refinement == "none") return part_of_face;
+                         RefineMode refinement) {
+    if (refinement == RefineMode::none) return part_of_face;
     std::vector<double> holding;
-    if (refinement == "held")
+    if (refinement == RefineMode::held)
         holding = holding_costs(mesh.graph, mesh.geometry, part_of_face, boundary_reach);
     return fuzzy_cut(mesh.graph, part_of_face, {}, holding);
 }
@@ -44,17 +42,19 @@ std::vector<int> refined(const MeshDescription& mesh, const std::vector<int>& pa
 }  // namespace
 
 std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
-                                    const RunOptions& options) {
+                                    int parts, RefineMode refine, StageLog& log) {
+    log.begin("label");
     std::vector<MeshLabels> labels;
     for (const MeshDescription& mesh : collection.local) {
         const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, part_of_patch);
         const std::vector<int> part_of_face =
-            refined(mesh, vote_face_labels(mesh.patches, part_of, options.parts, mesh.graph), options.refine);
+            refined(mesh, vote_face_labels(mesh.patches, part_of, parts, mesh.graph), refine);
         labels.push_back({.mesh = mesh.mesh,
                           .part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area),
                           .patch = carry_labels_back(mesh.map, mesh.patches.front(), mesh.geometry.area),
-                          .part_area = area_shares(mesh.geometry.area, part_of_face, options.parts)});
+                          .part_area = area_shares(mesh.geometry.area, part_of_face, parts)});
     }
+    log.end("one part per face");
     return labels;
 }
 

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "mpi_drivers/describe/mesh_stage.hpp"
-#include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/options/stage_options.hpp"
+#include "src/parallel/stage_log.hpp"
 
 namespace coseg {
 
@@ -15,9 +16,9 @@ struct MeshLabels {
     std::vector<double> part_area;  ///< K, shares of the mesh's area
 };
 
-/// Labels of this rank's meshes, voted and refined as options.refine says. part_of_patch: N, all patches. Not
-/// collective.
+/// Labels of this rank's meshes, voted and refined. part_of_patch: N, all patches, 0 .. parts - 1. The log
+/// has the stage "label". Collective.
 std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
-                                    const RunOptions& options);
+                                    int parts, RefineMode refine, StageLog& log);
 
 }  // namespace coseg

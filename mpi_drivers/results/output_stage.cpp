@@ -29,7 +29,7 @@ double peak_memory_mib() {
 /// parts x meshes: shares of area, on all ranks.
 Eigen::MatrixXd gather_part_areas(const Comm& comm, const RunOutcome& outcome) {
     const auto meshes = static_cast<Eigen::Index>(outcome.collection.meshes.size());
-    Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(outcome.options.parts, meshes);
+    Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(outcome.parts, meshes);
     for (const MeshLabels& labels : outcome.labels) {
         for (Eigen::Index p = 0; p < shares.rows(); ++p) shares(p, labels.mesh) = labels.part_area[at(p)];
     }
@@ -86,73 +86,51 @@ void add_run_facts(const Comm& comm, Report& report, const StageLog& log) {
     report.stages = log.stages();
 }
 
-/// W permuted by part, finer than in the report. An assignment has no coefficients of its own to draw. Collective.
-void write_affinity_picture(const Comm& comm, const ResultFolder& folder, const RunOutcome& outcome) {
-    const SparseCoefficients& coefficients = outcome.optimisation.result.coefficients;
-    if (all_sum(comm, static_cast<std::int64_t>(coefficients.rows.size())) == 0) return;
-    const AffinityPicture picture =
-        affinity_picture(comm, coefficients, outcome.cut.part_of_patch, outcome.options.parts, picture_bins);
-    agree(comm, [&] {
-        if (comm.is_root())
-            write_png(folder.staging() + "/affinity.png", affinity_image(picture.rows, picture.part_ends));
-    });
-}
-
 }  // namespace
 
-ResultFolder::ResultFolder(const Comm& comm, const std::string& path, bool force) {
-    agree(comm, [&] {
-        if (!comm.is_root()) return;
-        const TerminationPause pause;
-        on_root_.emplace(path, force);
-        watch_.emplace([this] { on_root_->abandon(); });
-    });
-    if (comm.is_root()) staging_ = on_root_->staging();
-    broadcast(comm, staging_);
-}
-
-void ResultFolder::commit(const Comm& comm) {
-    agree(comm, [&] {
-        if (comm.is_root()) on_root_->commit();
-    });
-}
-
-void write_meshes(const Comm& comm, const ResultFolder& folder, const Collection& collection,
+void write_meshes(const Comm& comm, const std::string& folder, const Collection& collection,
                   const std::vector<MeshLabels>& labels) {
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {
             const MeshDescription& mesh = collection.local[k];
             const std::string& name = collection.meshes[at(mesh.mesh)].name;
-            write_labels(folder.staging() + "/labels/" + name + ".seg", labels[k].part);
-            write_labels(folder.staging() + "/patches/" + name + ".seg", labels[k].patch);
-            write_colored_ply(folder.staging() + "/ply/" + name + ".ply", mesh.input, labels[k].part);
+            write_labels(folder + "/labels/" + name + ".seg", labels[k].part);
+            write_labels(folder + "/patches/" + name + ".seg", labels[k].patch);
+            write_colored_ply(folder + "/ply/" + name + ".ply", mesh.input, labels[k].part);
         }
     });
 }
 
-void write_run_report(const Comm& comm, const ResultFolder& folder, const RunOutcome& outcome,
+void write_run_report(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
                       const StageLog& log) {
     const Eigen::MatrixXd part_areas = gather_part_areas(comm, outcome);
     const FeatureStrength strength = feature_strength(comm, outcome.optimisation.result.coefficients,
-                                                      outcome.cut.part_of_patch, outcome.options.parts);
+                                                      outcome.cut.part_of_patch, outcome.parts);
     Report report;
     add_run_facts(comm, report, log);
     report.optimisation = {outcome.optimisation, outcome.collection.numbering.patch_count(),
                            outcome.optimisation.result};
     report.partition = report_partition(outcome.cut, part_areas);
-    report.partition.affinity =
-        affinity_picture(comm, outcome.optimisation.result.coefficients, outcome.cut.part_of_patch,
-                         outcome.options.parts, affinity_bins);
-    report.features.ranges = outcome.features.ranges;
+    report.partition.affinity = affinity_picture(comm, outcome.optimisation.result.coefficients,
+                                                 outcome.cut.part_of_patch, outcome.parts, affinity_bins);
+    report.features.ranges = outcome.ranges;
     add_strengths(report.features, strength, outcome);
     report.state = outcome.state;
     report.meshes = report_meshes(outcome, part_areas);
     report.set_aside = outcome.collection.set_aside;
-    if (outcome.options.sheet) write_affinity_picture(comm, folder, outcome);
+    std::vector<std::pair<std::string, std::string>> options;
+    for (const OptionValue& option : outcome.options) options.emplace_back(option.key, option.value);
     agree(comm, [&] {
-        if (comm.is_root())
-            write_report(folder.staging() + "/report.json", library_versions(), outcome.resolved, report);
+        if (comm.is_root()) write_report(folder + "/report.json", library_versions(), options, report);
     });
+}
+
+void write_affinity_picture(const Comm& comm, const std::string& folder, const RunOutcome& outcome) {
+    const SparseCoefficients& coefficients = outcome.optimisation.result.coefficients;
+    if (all_sum(comm, static_cast<std::int64_t>(coefficients.rows.size())) == 0) return;
+    const AffinityPicture picture =
+        affinity_picture(comm, coefficients, outcome.cut.part_of_patch, outcome.parts, picture_bins);
+    agree(comm, [&] {});
 }
 
 }  // namespace coseg

@@ -25,8 +25,8 @@ std::vector<double> mean_part_area(const Comm& comm, const std::vector<MeshLabel
 
 }  // namespace
 
-void write_run_sheet(const Comm& comm, const ResultFolder& folder, const Collection& collection,
-                     const std::vector<MeshLabels>& labels, const RunOptions& options) {
+void write_run_sheet(const Comm& comm, const std::string& folder, const Collection& collection,
+                     const std::vector<MeshLabels>& labels, int parts, const ViewChoice& choice) {
     std::vector<DrawnShape> shapes;
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {
@@ -36,10 +36,11 @@ void write_run_sheet(const Comm& comm, const ResultFolder& folder, const Collect
         }
     });
     const std::vector<double> part_area =
-        mean_part_area(comm, labels, collection.meshes.size(), static_cast<std::size_t>(options.parts));
+        mean_part_area(comm, labels, collection.meshes.size(), static_cast<std::size_t>(parts));
     const int count = static_cast<int>(collection.meshes.size());
-    const View view = agree_on_view(comm, shapes, {options.view, options.up});
-    write_sheets(comm, folder.staging(), {"parts", parts_heading(part_area, count), view}, shapes, count);
+    const View view = agree_on_view(comm, shapes, choice);
+    write_sheets(comm, folder, {to_string(SheetColoring::parts), parts_heading(part_area, count), view},
+                 shapes, count);
 }
 
 }  // namespace coseg

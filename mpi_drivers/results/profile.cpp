@@ -46,7 +46,12 @@ std::string stage_table(const Comm& comm, const StageLog& log) {
 
 }  // namespace
 
-void write_profile(const Comm& comm, const std::string& folder, const RunOptions& options,
+void begin_profile(StageLog& log) {
+    begin_petsc_log();
+    log.keep_trace();
+}
+
+void write_profile(const Comm& comm, const std::string& folder, const ProcessOptions& options,
                    const StageLog& log) {
     const std::vector<RankTrace> traces = gather_records(comm, std::vector<RankTrace>{log.trace()});
     const std::string text = stage_table(comm, log) + "\n" + petsc_log_text(comm);

@@ -102,7 +102,7 @@ void write_html_report(const Comm& comm, const FinishedInput& input, const std::
     agree(comm, [&] {
         if (!comm.is_root()) return;
         page.report_json = read_file(input.folder + "/report.json");
-        const std::string sheet = input.folder + "/" + sheet_file("parts");
+        const std::string sheet = input.folder + "/" + sheet_file(to_string(SheetColoring::parts));
         if (std::filesystem::exists(sheet)) page.sheet_png = read_file(sheet);
         write_report_page(out + "/report.html", page);
     });

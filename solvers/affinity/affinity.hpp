@@ -6,9 +6,19 @@
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
 #include "solvers/subspace/coefficients.hpp"
+#include "src/base/enum_names.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
+
+/// What the coefficients become.
+enum class AffinityForm {
+    links,      ///< every patch's own links sum to 1, see normalized_links; deviates
+    formula_8,  ///< the paper's equation (8), see symmetric_affinity
+};
+constexpr std::array<EnumName<AffinityForm>, 2> enum_names(AffinityForm /*type*/) {
+    return {{{AffinityForm::links, "links"}, {AffinityForm::formula_8, "formula-8"}}};
+}
 
 /// S_ij = 1/2 (||w_ij||_2 + ||w_ji||_2), where w_ij holds the H coefficients of a pair. One exchange of
 /// entries gives the transpose. Collective. Source: the paper, equation (8).

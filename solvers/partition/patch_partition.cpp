@@ -71,8 +71,8 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
 
 SparseRows base_affinity(const Comm& comm, const CutInput& input, const CutOptions& options,
                          const std::vector<GlobalPatchNeighbors>& neighbors) {
-    SparseRows base = options.form == AffinityForm::paper ? symmetric_affinity(comm, input.coefficients)
-                                                          : normalized_links(comm, input.coefficients);
+    SparseRows base = options.form == AffinityForm::formula_8 ? symmetric_affinity(comm, input.coefficients)
+                                                              : normalized_links(comm, input.coefficients);
     if (options.minima_rule) apply_minima_rule(base, neighbors);
     return base;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "solvers/affinity/affinity.hpp"
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/position_correlation.hpp"
 #include "solvers/partition/cluster_merging.hpp"
@@ -16,12 +17,6 @@
 
 namespace coseg {
 
-/// What the coefficients become.
-enum class AffinityForm {
-    paper,  ///< equation (8)
-    links,  ///< every patch's own links sum to 1, see normalized_links; deviates
-};
-
 /// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 5K/2, 3K}, more than K merged by both rules.
 /// `placed`: with links weighed by place.
 std::vector<CutStart> pooled_starts(int parts, bool placed = false);
@@ -30,7 +25,7 @@ std::vector<CutStart> pooled_starts(int parts, bool placed = false);
 /// many limbs, where adjacency in the cut does harm.
 std::vector<CutStart> articulated_starts(int parts);
 
-/// One cut into the parts, adjacency = overlap; 0 with AffinityForm::paper is the paper's text.
+/// One cut into the parts, adjacency = overlap; 0 with AffinityForm::formula_8 is the paper's text.
 std::vector<CutStart> single_start(int parts, double adjacency);
 
 struct CutInput {

@@ -1,7 +1,10 @@
 #include "solvers/subspace/row_scope_column.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "solvers/numeric/inner_product.hpp"
 #include "src/base/index.hpp"
@@ -18,43 +21,55 @@ const double* column_of(const FeatureStack& stack, int i) {
     return stack.columns.data() + static_cast<std::int64_t>(i) * stack.dimension;
 }
 
-/// `width` features a pair, known to the compiler; sums stay in registers.
-template <std::size_t width>
-void apply_stored_gram(const RowScopeColumn& fit, const double* __restrict weights,
-                       double* __restrict product) {
+/// At most so many features are done at a time, so that their sums stay in registers.
+constexpr std::size_t most_features_at_a_time = 8;
+
+/// product = (stored Gram matrices) weights for the features first .. first + width of the `features` that a pair has.
+using ApplyGram = void (*)(const RowScopeColumn& fit, std::size_t features, std::size_t first,
+                           const double* weights, double* product);
+
+/// The number of features done at a time is known to the compiler; `all`: a pair has no others.
+template <std::size_t width, bool all>
+void apply_stored_gram(const RowScopeColumn& fit, std::size_t features, std::size_t first,
+                       const double* __restrict weights, double* __restrict product) {
     const std::size_t pairs = fit.rows.size();
-    const double* __restrict gram = fit.gram.data();
+    const std::size_t stride = all ? width : features;
+    const double* __restrict gram = fit.gram.data() + first;
+    weights += first;
+    product += first;
     for (std::size_t p = 0; p < pairs; ++p) {
         double sum[width] = {};
         double own[width];
-        for (std::size_t h = 0; h < width; ++h) own[h] = weights[p * width + h];
-        for (std::size_t q = 0; q < p * width; q += width, gram += width) {
+        for (std::size_t h = 0; h < width; ++h) own[h] = weights[p * stride + h];
+        for (std::size_t q = 0; q < p * stride; q += stride, gram += stride) {
             for (std::size_t h = 0; h < width; ++h) {
                 sum[h] += gram[h] * weights[q + h];
                 product[q + h] += gram[h] * own[h];
             }
         }
-        for (std::size_t h = 0; h < width; ++h) product[p * width + h] = sum[h] + gram[h] * own[h];
-        gram += width;
+        for (std::size_t h = 0; h < width; ++h) product[p * stride + h] = sum[h] + gram[h] * own[h];
+        gram += stride;
     }
+}
+
+/// One for each width from 1 on.
+template <bool all, std::size_t... less_one>
+constexpr std::array<ApplyGram, sizeof...(less_one)> of_all_widths(std::index_sequence<less_one...>) {
+    return {&apply_stored_gram<less_one + 1, all>...};
 }
 
 void apply_stored_gram(const RowScopeColumn& fit, std::size_t features, const double* weights,
                        double* product) {
-    const std::size_t pairs = fit.rows.size();
-    std::fill_n(product, pairs * features, 0.0);
-    const double* gram = fit.gram.data();
-    for (std::size_t p = 0; p < pairs; ++p) {
-        double* product_p = product + p * features;
-        const double* weights_p = weights + p * features;
-        for (std::size_t q = 0; q < p; ++q, gram += features) {
-            for (std::size_t h = 0; h < features; ++h) {
-                product_p[h] += gram[h] * weights[q * features + h];
-                product[q * features + h] += gram[h] * weights_p[h];
-            }
-        }
-        for (std::size_t h = 0; h < features; ++h) product_p[h] += gram[h] * weights_p[h];
-        gram += features;
+    using Widths = std::make_index_sequence<most_features_at_a_time>;
+    static constexpr auto all_of_a_pair = of_all_widths<true>(Widths());
+    static constexpr auto some_of_a_pair = of_all_widths<false>(Widths());
+    if (features <= most_features_at_a_time) {
+        all_of_a_pair[features - 1](fit, features, 0, weights, product);
+        return;
+    }
+    for (std::size_t first = 0; first < features; first += most_features_at_a_time) {
+        const std::size_t width = std::min(features - first, most_features_at_a_time);
+        some_of_a_pair[width - 1](fit, features, first, weights, product);
     }
 }
 
@@ -115,11 +130,7 @@ void apply_gram(const FeatureStack& stack, const RowScopeColumn& fit, const doub
         }
         return;
     }
-    if (features == 5) {
-        apply_stored_gram<5>(fit, weights, product);
-    } else {
-        apply_stored_gram(fit, features, weights, product);
-    }
+    apply_stored_gram(fit, features, weights, product);
 }
 
 }  // namespace coseg

@@ -3,20 +3,32 @@
 // how close they are to the optimum.
 
 #include <functional>
-#include <string>
 
 #include "solvers/subspace/coefficients.hpp"
 #include "solvers/subspace/solve_history.hpp"
 #include "solvers/subspace/solver_checkpoint.hpp"
+#include "src/base/enum_names.hpp"
 #include "src/records/solve_summary.hpp"
 
 namespace coseg {
+
+/// How W is stored while it is solved for.
+enum class SolverChoice {
+    automatic,
+    dense,        ///< all pairs; row scope only
+    working_set,  ///< the pairs that may have a value
+};
+constexpr std::array<EnumName<SolverChoice>, 3> enum_names(SolverChoice /*type*/) {
+    return {{{SolverChoice::automatic, "auto"},
+             {SolverChoice::dense, "dense"},
+             {SolverChoice::working_set, "working-set"}}};
+}
 
 struct SolveOptions {
     double gap = 1e-4;            ///< the relative gap at which to stop; see SolveResult
     int max_iterations = 200000;  ///< of the inner method; mesh scope: per column
     double max_seconds = 3600.0;  ///< wall time
-    std::string solver = "auto";  ///< "auto", "dense" (row scope only) or "working-set"
+    SolverChoice solver = SolverChoice::automatic;
     /// Mesh scope: called after every tile with the number of this rank's columns, solved and in all. May be
     /// empty.
     std::function<void(std::int64_t, std::int64_t)> progress = {};

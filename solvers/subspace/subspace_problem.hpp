@@ -17,11 +17,22 @@
 #include <string>
 #include <vector>
 
+#include "src/base/enum_names.hpp"
 #include "src/histograms/feature_matrices.hpp"
 
 namespace coseg {
 
-enum class PenaltyScope { rows, meshes };
+/// What lambda's squared sums run over.
+enum class PenaltyScope {
+    rows,    ///< whole rows of W, as in the paper
+    meshes,  ///< the links of one patch to one mesh
+};
+constexpr std::array<EnumName<PenaltyScope>, 2> enum_names(PenaltyScope /*type*/) {
+    return {{{PenaltyScope::rows, "rows"}, {PenaltyScope::meshes, "meshes"}}};
+}
+constexpr std::array<EnumName<PenaltyScope>, 2> enum_aliases(PenaltyScope /*type*/) {
+    return {{{PenaltyScope::rows, "paper"}, {PenaltyScope::meshes, "mesh"}}};
+}
 
 struct SubspaceProblem {
     FeatureMatrices features;  ///< H matrices, d_h x N, nonnegative, the same on every rank

@@ -10,19 +10,13 @@ namespace coseg {
 SolveResult solve_subspace(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options) {
     agree(comm, [&] {
         validate(problem);
-        const bool known =
-            options.solver == "auto" || options.solver == "dense" || options.solver == "working-set";
-        if (!known) {
-            throw Error(ExitCode::usage,
-                        "unknown solver '" + options.solver + "'; use auto, dense or working-set");
-        }
-        if (problem.scope == PenaltyScope::meshes && options.solver == "dense") {
+        if (problem.scope == PenaltyScope::meshes && options.solver == SolverChoice::dense) {
             throw Error(ExitCode::usage, "the dense solver covers row scope only; use auto or working-set");
         }
     });
     use_one_blas_thread();
     if (problem.scope == PenaltyScope::meshes) return solve_mesh_scope(comm, problem, options);
-    if (options.solver == "dense") return solve_dense(comm, problem, options);
+    if (options.solver == SolverChoice::dense) return solve_dense(comm, problem, options);
     return solve_working_set(comm, problem, options);
 }
 

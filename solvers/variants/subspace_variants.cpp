@@ -107,25 +107,6 @@ SolveResult solve_ssqp(const Comm& comm, SubspaceProblem problem, const SolveOpt
 
 }  // namespace
 
-const std::vector<std::string>& variant_names() {
-    static const std::vector<std::string> names = {
-        "multi-feature", "single-feature", "independent", "concatenated", "ssc", "ssc-signed", "ssqp"};
-    return names;
-}
-
-std::string to_string(SubspaceVariant variant) { return variant_names()[at(variant)]; }
-
-SubspaceVariant variant_of(const std::string& name) {
-    const std::vector<std::string>& names = variant_names();
-    const auto place = std::find(names.begin(), names.end(), name);
-    if (place == names.end()) {
-        std::string known;
-        for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
-        throw Error(ExitCode::usage, "unknown variant '" + name + "'; use one of " + known);
-    }
-    return static_cast<SubspaceVariant>(place - names.begin());
-}
-
 bool keeps_scope(SubspaceVariant variant) {
     return variant != SubspaceVariant::ssc && variant != SubspaceVariant::ssc_signed &&
            variant != SubspaceVariant::ssqp;

@@ -2,10 +2,8 @@
 // The forms of subspace clustering that the paper names beside its own, on the same features and in the same
 // result.
 
-#include <string>
-#include <vector>
-
 #include "solvers/variants/subspace_solver.hpp"
+#include "src/base/enum_names.hpp"
 
 namespace coseg {
 
@@ -19,13 +17,15 @@ enum class SubspaceVariant {
     ssqp,            ///< equation (4) on the stacked features: lambda ||W^T W||_{1,1} alone
 };
 
-/// "multi-feature", "single-feature", "independent", "concatenated", "ssc", "ssc-signed", "ssqp", in the order
-/// of the enumeration.
-const std::vector<std::string>& variant_names();
-std::string to_string(SubspaceVariant variant);
-
-/// Throws Error(usage) where there is no such variant.
-SubspaceVariant variant_of(const std::string& name);
+constexpr std::array<EnumName<SubspaceVariant>, 7> enum_names(SubspaceVariant /*type*/) {
+    return {{{SubspaceVariant::multi_feature, "multi-feature"},
+             {SubspaceVariant::single_feature, "single-feature"},
+             {SubspaceVariant::independent, "independent"},
+             {SubspaceVariant::concatenated, "concatenated"},
+             {SubspaceVariant::ssc, "ssc"},
+             {SubspaceVariant::ssc_signed, "ssc-signed"},
+             {SubspaceVariant::ssqp, "ssqp"}}};
+}
 
 /// Whether the variant keeps the problem's scope and allowed meshes; ssc and ssqp are those of the literature,
 /// over all pairs.

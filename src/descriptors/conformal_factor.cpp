@@ -1,10 +1,8 @@
 #include "src/descriptors/conformal_factor.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -12,6 +10,7 @@
 
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/descriptors/cotangent_laplacian.hpp"
 #include "src/descriptors/gaussian_curvature.hpp"
 
 namespace coseg {
@@ -55,44 +54,12 @@ VertexComponents vertex_components(const TriMesh& mesh) {
     return components;
 }
 
-/// Half the cotangent at every corner of a face; those of an equilateral face if it is too thin, or if asked
-/// for.
-Eigen::Vector3d half_cotangents(const TriMesh& mesh, int f, bool uniform) {
-    constexpr double thinnest = 1e-6;  // height over longest edge
-    constexpr double equilateral = 0.5 * std::numbers::inv_sqrt3;
-    Eigen::Matrix3d edge;  // opposite the corner
-    for (int k = 0; k < 3; ++k) {
-        edge.col(k) =
-            mesh.vertices.col(mesh.faces((k + 2) % 3, f)) - mesh.vertices.col(mesh.faces((k + 1) % 3, f));
-    }
-    const double double_area = edge.col(0).cross(edge.col(1)).norm();
-    const double longest = edge.colwise().squaredNorm().maxCoeff();
-    if (uniform || !(double_area > thinnest * longest)) return Eigen::Vector3d::Constant(equilateral);
-    Eigen::Vector3d cotangent;
-    for (int k = 0; k < 3; ++k)
-        cotangent[k] = -edge.col((k + 1) % 3).dot(edge.col((k + 2) % 3)) / double_area;
-    return 0.5 * cotangent;
-}
-
 /// L, with the first vertex of every component pinned: its diagonal entry is doubled (or 1), which removes
 /// the constant mode and changes nothing else, because right-hand sides that sum to zero give that vertex the
 /// value 0.
 SparseMatrix pinned_laplacian(const TriMesh& mesh, const VertexComponents& components, bool uniform) {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(static_cast<std::size_t>(mesh.face_count()) * 12 + components.first_vertex.size());
-    for (int f = 0; f < mesh.face_count(); ++f) {
-        const Eigen::Vector3d weight = half_cotangents(mesh, f, uniform);
-        for (int k = 0; k < 3; ++k) {
-            const int a = mesh.faces((k + 1) % 3, f);
-            const int b = mesh.faces((k + 2) % 3, f);
-            entries.emplace_back(a, b, -weight[k]);
-            entries.emplace_back(b, a, -weight[k]);
-            entries.emplace_back(a, a, weight[k]);
-            entries.emplace_back(b, b, weight[k]);
-        }
-    }
-    SparseMatrix laplacian(mesh.vertex_count(), mesh.vertex_count());
-    laplacian.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix laplacian =
+        cotangent_laplacian(mesh, uniform ? LaplacianWeights::uniform : LaplacianWeights::cotangent);
     for (const int v : components.first_vertex) {
         const double diagonal = laplacian.coeff(v, v);
         laplacian.coeffRef(v, v) += diagonal > 0.0 ? diagonal : 1.0;

@@ -155,4 +155,18 @@ Eigen::MatrixXf shape_context(const GeodesicTable& table, const FaceGeometry& ge
     return contexts;
 }
 
+Eigen::VectorXd shape_context_rings(const Eigen::MatrixXf& contexts) {
+    Eigen::VectorXd rings = Eigen::VectorXd::Zero(contexts.cols());
+    for (Eigen::Index f = 0; f < contexts.cols(); ++f) {
+        double total = 0.0;
+        for (Eigen::Index bin = 0; bin < contexts.rows(); ++bin) {
+            const Eigen::Index ring = bin % shape_context_bins / shape_context_angles;
+            rings[f] += static_cast<double>(ring) * contexts(bin, f);
+            total += contexts(bin, f);
+        }
+        if (total > 0.0) rings[f] /= total;
+    }
+    return rings;
+}
+
 }  // namespace coseg

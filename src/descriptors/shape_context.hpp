@@ -40,4 +40,8 @@ enum class ShapeContextNormal {
 Eigen::MatrixXf shape_context(const GeodesicTable& table, const FaceGeometry& geometry,
                               ShapeContextNormal normal = ShapeContextNormal::both);
 
+/// One number for each of the columns of shape contexts: the mean ring of its area, 0 where all of the shape is near, 4 where
+/// all of it is far.
+Eigen::VectorXd shape_context_rings(const Eigen::MatrixXf& contexts);
+
 }  // namespace coseg

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "src/base/enum_names.hpp"
 #include "src/histograms/feature_range.hpp"
 
 namespace coseg {
@@ -17,6 +18,11 @@ enum class HistogramScaling {
     square_root,  ///< square root of unit_sum: columns of 2-norm 1, x_i . x_j is the Bhattacharyya
                   ///< coefficient
 };
+constexpr std::array<EnumName<HistogramScaling>, 3> enum_names(HistogramScaling /*type*/) {
+    return {{{HistogramScaling::counts, "counts"},
+             {HistogramScaling::unit_sum, "unit-sum"},
+             {HistogramScaling::square_root, "square-root"}}};
+}
 
 /// bins x patches, column major, entries >= 0; column p is the weight of patch p's faces per bin, scaled. Every patch
 /// with a face has a nonzero column: where all its weights are 0, its faces count alike; a patch without faces has a

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/enum_names.hpp"
 #include "src/mesh/tri_mesh.hpp"
 
 namespace coseg {
@@ -18,6 +19,25 @@ struct View {
 };
 
 enum class UpAxis { x, y, z };
+
+/// The axis that points up in pictures, as a user asks for it.
+enum class UpChoice {
+    automatic,  ///< the one on which the shapes stand best
+    x,
+    y,
+    z,
+};
+constexpr std::array<EnumName<UpChoice>, 4> enum_names(UpChoice /*type*/) {
+    return {{{UpChoice::automatic, "auto"}, {UpChoice::x, "x"}, {UpChoice::y, "y"}, {UpChoice::z, "z"}}};
+}
+
+/// The name of the view that shows the largest outlines.
+inline constexpr const char* widest_view = "auto";
+
+struct ViewChoice {
+    std::string view = widest_view;  ///< or a name or AZIMUTH,ELEVATION, see named_view
+    UpChoice up = UpChoice::automatic;
+};
 
 /// The view from `azimuth` degrees to the right of the shape's front and `elevation` degrees above the
 /// horizon (-90..90). A shape with y up has its front towards +z, with z up towards -y, with x up towards +z:

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/enum_names.hpp"
+
 namespace Eigen {
 template <class Derived>
 class PlainObjectBase;
@@ -74,18 +76,6 @@ template <class R>
 concept Record = requires {
     std::remove_const_t<R>::fields();
 };
-
-/// An enumeration that is written by name: `constexpr std::array<std::string_view, N> names_of(E)` beside it,
-/// in the order of its values from 0.
-template <class E>
-concept NamedEnum = std::is_enum_v<E> && requires(E value) {
-    names_of(value)[0];
-};
-
-template <NamedEnum E>
-constexpr std::string_view name_of_value(E value) {
-    return names_of(value)[static_cast<std::size_t>(value)];
-}
 
 namespace kinds {
 

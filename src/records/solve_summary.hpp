@@ -14,10 +14,12 @@ namespace coseg {
 
 /// From best to worst.
 enum class StopReason { gap_reached, residual_reached, iteration_limit, time_limit };
-constexpr std::array<std::string_view, 4> names_of(StopReason) {
-    return {"gap_reached", "residual_reached", "iteration_limit", "time_limit"};
+constexpr std::array<EnumName<StopReason>, 4> enum_names(StopReason /*type*/) {
+    return {{{StopReason::gap_reached, "gap_reached"},
+             {StopReason::residual_reached, "residual_reached"},
+             {StopReason::iteration_limit, "iteration_limit"},
+             {StopReason::time_limit, "time_limit"}}};
 }
-inline std::string to_string(StopReason reason) { return std::string(name_of_value(reason)); }
 
 /// The state of the whole problem after a pass over all pairs. It is the same on all ranks and on any number
 /// of ranks.

@@ -33,7 +33,9 @@ enum class MergeRule {
     /// less well than the large ones, which the normalised cut gives up first.
     linkage,
 };
-constexpr std::array<std::string_view, 2> names_of(MergeRule) { return {"normalized_cut", "linkage"}; }
+constexpr std::array<EnumName<MergeRule>, 2> enum_names(MergeRule /*type*/) {
+    return {{{MergeRule::normalized_cut, "normalized_cut"}, {MergeRule::linkage, "linkage"}}};
+}
 
 /// One attempt: the graph is cut into `clusters`, these are merged into the parts by their links in it.
 struct CutStart {

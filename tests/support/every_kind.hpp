@@ -16,7 +16,9 @@
 namespace coseg::test {
 
 enum class Metal { iron, copper };
-constexpr std::array<std::string_view, 2> names_of(Metal) { return {"iron", "copper"}; }
+constexpr std::array<EnumName<Metal>, 2> enum_names(Metal /*type*/) {
+    return {{{Metal::iron, "iron"}, {Metal::copper, "copper"}}};
+}
 
 struct Numbers {
     bool truth = false;

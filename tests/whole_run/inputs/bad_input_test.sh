@@ -62,7 +62,7 @@ refuses "unknown PETSc prefix" 2 "-no_such_option" run 2 "$work/good" -- -no_suc
 refuses "misspelt PETSc option" 2 "-eps_ncw" run 2 "$work/good" -- -eps_ncw 3
 [[ ! -e $work/result ]] || fail "a refused run left a result"
 
-for scope in paper mesh; do
+for scope in rows meshes; do
     refuses "gap not reached, scope $scope" 5 "was not reached" run 2 --scope $scope --max-iterations 2 --gap 1e-12 "$work/good"
     [[ $(ls "$work/result/labels") == $'a.seg\nb.seg\nc.seg' ]] || fail "gap not reached, scope $scope: the results are not kept"
     rm -r "$work/result"

@@ -91,9 +91,9 @@ bad far "'mesh_of' holds the number 2000000000"
 bad fractions "'mesh_of' holds floating-point numbers"
 bad concavity "'neighbors/concavity' holds a value"
 bad length "'neighbors', pair 0"
-for scope in paper mesh; do refuses "a bad file on 4 ranks, scope $scope" 3 "feature 2, column 8" cluster nan 4 --scope $scope; done
+for scope in rows meshes; do refuses "a bad file on 4 ranks, scope $scope" 3 "feature 2, column 8" cluster nan 4 --scope $scope; done
 refuses "a bad dataset on 2 ranks" 3 "'neighbors', pair 0" cluster length 2
-refuses "one group cannot be linked" 3 "at least two groups" cluster one_group 2 --scope mesh
+refuses "one group cannot be linked" 3 "at least two groups" cluster one_group 2 --scope meshes
 refuses "more parts than items" 2 "4 parts are asked for" cluster one_item 2
 [[ ! -e $work/w.h5 ]] || fail "solved although there are more parts than items"
 
@@ -112,7 +112,7 @@ parts=1
 fine one_item 2
 parts=4
 fine one_group 2
-for scope in paper mesh; do
+for scope in rows meshes; do
     fine one_feature 2 --scope $scope
     fine integers 2 --scope $scope --unit-columns
     fine duplicates 2 --scope $scope

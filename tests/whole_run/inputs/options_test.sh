@@ -32,8 +32,9 @@ by_option, by_file = (json.load(open(path))["options"] for path in sys.argv[1:])
 for options in (by_option, by_file):
     del options["out"], options["config"]
 assert by_option == by_file, (by_option, by_file)
-assert by_option["alpha"] == 0.02 and by_option["lambda"] == 10 and by_option["scope"] == "paper"
+assert by_option["alpha"] == 0.02 and by_option["lambda"] == 10 and by_option["scope"] == "rows"
 assert by_option["oversegmentations"] == 1 and by_option["adjacency"] == 0
+assert by_option["drop-below"] == 1e-6 and by_option["cut-offset"] == 0.5
 END
 printf 'parts = 2\nno_such_key = 1\n' >"$work/wrong.toml"
 refuses "unknown key in a file" 2 "no_such_key" "$COSEG" run "${common[@]}" --config "$work/wrong.toml" --out "$work/x" "$work/set"
@@ -54,6 +55,11 @@ refuses "configuration file that is missing" 2 "$work/none.toml" \
 "$COSEG" run "${common[@]}" --parts 3 --no-choose --refine fuzzy --out "$work/fuzzy" "$work/set"
 diff -rq "$work/voted/labels" "$work/fuzzy/labels" >"$work/differences" && fail "--refine fuzzy moves nothing"
 refuses "an unknown refinement" 2 "--refine" "$COSEG" run "${common[@]}" --parts 2 --refine maybe --out "$work/x" "$work/set"
+
+"$COSEG" run "${common[@]}" --parts 2 --scope rows --out "$work/rows" "$work/set"
+"$COSEG" run "${common[@]}" --parts 2 --scope paper --out "$work/old_word" "$work/set"
+diff -r "$work/rows/labels" "$work/old_word/labels" || fail "--scope paper is not --scope rows"
+refuses "an offset beside a balance" 2 "--cut-offset" "$COSEG" run "${common[@]}" --parts 2 --cut-offset 0.5 --out "$work/x" "$work/set"
 
 printf '# two of them\nset/a.off\n\nset/c.off\n' >"$work/list.txt"
 "$COSEG" run "${common[@]}" --parts 2 --out "$work/listed" "@$work/list.txt"

@@ -23,7 +23,7 @@ cp "$work/result/report.html" "$work/one.html"
 ranks 3 "$COSEG" report "$work/result" --truth "$work/set/truth" >"$work/out"
 cmp "$work/one.html" "$work/result/report.html" || fail "the report depends on the ranks"
 echo "ok: self-contained, the same on 1 and 3 ranks"
-"$COSEG" run --quiet --patches 20 --oversegmentations 1 --geodesic-samples 40 --parts 3 --scope paper --out "$work/paper" "$work/set/meshes"
+"$COSEG" run --quiet --patches 20 --oversegmentations 1 --geodesic-samples 40 --parts 3 --scope rows --out "$work/paper" "$work/set/meshes"
 accuracy=(--accuracy)
 for report in "$work/result" "$work/paper"; do
     status=0

@@ -23,7 +23,7 @@ done
 python3 - "$work/k1.json" "$work/kept/report.json" "$work" <<'END' || fail "cluster and run disagree"
 import glob, json, sys
 answer, report, work = json.load(open(sys.argv[1])), json.load(open(sys.argv[2])), sys.argv[3]
-assert answer["reason"] == "gap_reached" and answer["scope"] == "mesh", answer
+assert answer["reason"] == "gap_reached" and answer["scope"] == "meshes", answer
 for key in ("objective", "lower_bound"):  # the file has its features in another order: other roundings
     assert abs(answer[key] - report["optimisation"][key]) <= 1e-9 * answer[key], key
 parts = [int(line) for line in open(work + "/k1.txt")]
@@ -41,7 +41,7 @@ END
 refuses "optimum W = 0" 3 "the optimum is W = 0 (certified)" "${cluster[@]}" --beta 1e6 --out "$work/x.txt" "$work/kept/features.h5"
 refuses "run whose optimum is W = 0" 3 "the optimum is W = 0 (certified)" "${run[@]}" --beta 1e6 --out "$work/x" "$work/set"
 [[ ! -e $work/x.txt && ! -e $work/x ]] || fail "results of an empty solution"
-refuses "gap not reached" 5 "was not reached" "$COSEG" cluster --parts 2 --scope paper --lambda 0 --gap 1e-13 --max-iterations 3 \
+refuses "gap not reached" 5 "was not reached" "$COSEG" cluster --parts 2 --scope rows --lambda 0 --gap 1e-13 --max-iterations 3 \
     --out "$work/last.txt" --coefficients "$work/last.h5" "$work/kept/features.h5"
 [[ -s $work/last.txt && -s $work/last.h5 ]] || fail "the last state is not kept"
 refuses "more clusters than items" 2 "41 parts" "$COSEG" cluster --parts 41 --out "$work/x.txt" "$work/kept/features.h5"

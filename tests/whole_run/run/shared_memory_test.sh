@@ -26,8 +26,8 @@ for most in 1 2 3; do
     COSEG_RANKS_PER_NODE=$most ranks 4 "$COSEG" cluster --parts 2 --unit-columns --out "$work/k$most.txt" \
         --coefficients "$work/w$most.h5" "$work/nodes$most/features.h5" >"$work/k$most.json"
 done
-COSEG_RANKS_PER_NODE=2 ranks 4 "$COSEG" run --quiet "${common[@]}" --scope paper --subsets 4 --out "$work/subsets" "$work/set"
-"$COSEG" run --quiet "${common[@]}" --scope paper --subsets 4 --out "$work/alone_subsets" "$work/set"
+COSEG_RANKS_PER_NODE=2 ranks 4 "$COSEG" run --quiet "${common[@]}" --scope rows --subsets 4 --out "$work/subsets" "$work/set"
+"$COSEG" run --quiet "${common[@]}" --scope rows --subsets 4 --out "$work/alone_subsets" "$work/set"
 diff -r "$work/alone_subsets/labels" "$work/subsets/labels" || fail "subsets on two nodes: other labels"
 "$COSEG" cluster --parts 2 --unit-columns --out "$work/k.txt" --coefficients "$work/w.h5" "$work/alone/features.h5" \
     >"$work/k.json"

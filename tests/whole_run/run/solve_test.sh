@@ -40,7 +40,7 @@ assert last["objective"] == answer["objective"] and last["relative_gap"] == answ
 PYTHON
 }
 
-for scope in paper mesh; do
+for scope in rows meshes; do
     for ranks in 1 3; do
         mpirun -n $ranks "$COSEG" solve "$folder/problem.txt" --scope $scope --gap 1e-8 > "$folder/$scope$ranks.json" \
             || fail "scope $scope on $ranks ranks ended with $?"
@@ -55,14 +55,14 @@ for variant in single-feature independent concatenated ssc ssc-signed ssqp; do
         || fail "variant $variant ended with $?"
     check "$folder/$variant.json"
 done
-"$COSEG" solve "$folder/problem.txt" --scope mesh --links 2 --gap 1e-8 > "$folder/links.json"
+"$COSEG" solve "$folder/problem.txt" --scope meshes --links 2 --gap 1e-8 > "$folder/links.json"
 check "$folder/links.json"
 python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["allowed_pairs"] == 12' "$folder/links.json" \
     || fail "pairs that links allow"
 
 "$COSEG" solve "$folder/problem.txt" --solver dense --gap 1e-8 > "$folder/dense.json"
 check "$folder/dense.json"
-python3 - "$folder/dense.json" "$folder/paper1.json" <<'PYTHON'
+python3 - "$folder/dense.json" "$folder/rows1.json" <<'PYTHON'
 import json, sys
 dense, sparse = (json.load(open(name))["objective"] for name in sys.argv[1:])
 assert abs(dense - sparse) <= 1e-8 * dense, (dense, sparse)
@@ -86,8 +86,8 @@ expect 2 "" "$folder/problem.txt" --gap 2
 expect 2 "not finite" "$folder/problem.txt" --gap nan
 expect 2 "not finite" "$folder/problem.txt" --max-seconds nan
 expect 2 "feature 3 is asked for" "$folder/problem.txt" --variant single-feature --feature 3
-expect 2 "needs --scope mesh" "$folder/problem.txt" --links 2
-expect 2 "at least 2" "$folder/problem.txt" --scope mesh --links 1
+expect 2 "needs --scope meshes" "$folder/problem.txt" --links 2
+expect 2 "at least 2" "$folder/problem.txt" --scope meshes --links 1
 expect 2 "" "$folder/problem.txt" --no-such-option
 expect 3 "cannot open" "$folder/missing.txt"
 head -n 5 "$folder/problem.txt" > "$folder/short.txt"

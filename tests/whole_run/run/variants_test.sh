@@ -27,12 +27,12 @@ for variant in single-feature independent concatenated ssc ssc-signed ssqp; do
     gap=(--gap 1e-2) # without lambda or with it alone the graph is dense: its test is tests/distributed
     "$COSEG" run "${common[@]}" "${gap[@]}" --variant $variant --out "$work/$variant" "$work/set"
 done
-facts "$work/single-feature" single-feature mesh shape_diameter
-facts "$work/independent" independent mesh ""
-facts "$work/concatenated" concatenated mesh concatenated
-facts "$work/ssc" ssc paper concatenated
-facts "$work/ssc-signed" ssc-signed paper concatenated
-facts "$work/ssqp" ssqp paper concatenated
+facts "$work/single-feature" single-feature meshes shape_diameter
+facts "$work/independent" independent meshes ""
+facts "$work/concatenated" concatenated meshes concatenated
+facts "$work/ssc" ssc rows concatenated
+facts "$work/ssc-signed" ssc-signed rows concatenated
+facts "$work/ssqp" ssqp rows concatenated
 
 for count in 1 2 3; do
     ranks $count "$COSEG" run "${common[@]}" --links 2 --out "$work/links$count" "$work/set"
@@ -65,8 +65,8 @@ assert all(0 <= share <= 1 for share in every["features"]["inside_part"])
 END
 refuses "an unknown baseline" 2 "--preset" "$COSEG" run "${common[@]}" --preset single:colour --out "$work/x" "$work/set"
 
-refuses "links over all pairs" 2 "need --scope mesh" "$COSEG" run "${common[@]}" --scope paper --links 4 --out "$work/x" "$work/set"
-refuses "links of an l1 problem" 2 "need --scope mesh" "$COSEG" run "${common[@]}" --variant ssc --links 4 --out "$work/x" "$work/set"
+refuses "links over all pairs" 2 "need --scope meshes" "$COSEG" run "${common[@]}" --scope rows --links 4 --out "$work/x" "$work/set"
+refuses "links of an l1 problem" 2 "need --scope meshes" "$COSEG" run "${common[@]}" --variant ssc --links 4 --out "$work/x" "$work/set"
 refuses "one link" 2 "links" "$COSEG" run "${common[@]}" --links 1 --out "$work/x" "$work/set"
 refuses "feature without weight" 2 "its weight is 0" "$COSEG" run "${common[@]}" --variant single-feature \
     --feature-weights 1,0,1,1,1 --out "$work/x" "$work/set"

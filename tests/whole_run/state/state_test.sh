@@ -150,7 +150,7 @@ if mount -t tmpfs -o size=400k tmpfs "$small" 2>/dev/null; then
     refuses "a read-only folder" 4 "cannot be written (Read-only file system)" \
         ranks 2 "$COSEG" run "${options[@]}" --parts 2 --state "$small/state" --out "$work/refused" "$work/seven"
     # Room for the descriptions, none for what comes after them: the optimiser's progress, in both forms.
-    for scope in mesh paper; do
+    for scope in meshes rows; do
         mount -o remount,rw,size=100m "$small"
         rm -rf "$small/state"
         ranks 1 "$COSEG" describe --quiet --geodesic-samples 100 --patches 20 --state "$small/state" "$work/seven"

@@ -67,7 +67,7 @@ SolveOptions precise(SolverCheckpoint* checkpoint) {
     return {.gap = 1e-9,
             .max_iterations = 100000,
             .max_seconds = 3600.0,
-            .solver = "auto",
+            .solver = SolverChoice::automatic,
             .checkpoint = checkpoint};
 }
 

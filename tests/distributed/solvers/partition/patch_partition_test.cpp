@@ -56,7 +56,7 @@ CutOptions pooled(int parts) {
 CutOptions paper(int parts) {
     CutOptions options;
     options.parts = parts;
-    options.form = AffinityForm::paper;
+    options.form = AffinityForm::formula_8;
     options.drop_below = 1e-6;
     options.spectral.offset = 0.5;
     options.starts = single_start(parts, 0.0);

@@ -53,7 +53,7 @@ SolveResult expect_same_on_any_ranks(const SubspaceProblem& problem, const Solve
     return shared;
 }
 
-SolveOptions precise(const std::string& solver, double gap = 1e-8) {
+SolveOptions precise(SolverChoice solver, double gap = 1e-8) {
     return {.gap = gap, .max_iterations = 100000, .max_seconds = 3600.0, .solver = solver};
 }
 
@@ -62,7 +62,7 @@ TEST(SubspaceSolver, PaperScopeDense) {
     // already.
     SubspaceProblem problem = random_subspace_problem(3, 12, 70, 10, 21);
     problem.lambda = 5.0;
-    const SolveResult result = expect_same_on_any_ranks(problem, precise("dense", 1e-4));
+    const SolveResult result = expect_same_on_any_ranks(problem, precise(SolverChoice::dense, 1e-4));
     EXPECT_EQ(result.reason, StopReason::gap_reached);
     EXPECT_LE(result.objective - result.lower_bound, 1e-4 * result.objective);
 }
@@ -72,7 +72,7 @@ TEST(SubspaceSolver, MeshScope) {
         SubspaceProblem problem = random_subspace_problem(3, 12, 70, 10, 22);
         problem.scope = PenaltyScope::meshes;
         problem.lambda = lambda;
-        const SolveResult result = expect_same_on_any_ranks(problem, precise("auto", 1e-6));
+        const SolveResult result = expect_same_on_any_ranks(problem, precise(SolverChoice::automatic, 1e-6));
         EXPECT_EQ(result.reason, StopReason::gap_reached);
         EXPECT_LE(result.relative_gap, 1e-6);
         EXPECT_GT(result.nonzero_groups, 0);
@@ -85,7 +85,7 @@ TEST(SubspaceSolver, MeshScopeHasNoPairsInsideAMeshInWhateverOrderMeshesCome) {
     problem.lambda = 2.0;
     for (std::size_t j = 0; j < problem.mesh_of.size(); ++j)
         problem.mesh_of[j] = static_cast<int>((j * 7) % 5) * 3;
-    const SolveResult result = expect_same_on_any_ranks(problem, precise("auto", 1e-6));
+    const SolveResult result = expect_same_on_any_ranks(problem, precise(SolverChoice::automatic, 1e-6));
     for (std::size_t j = 0; j < problem.mesh_of.size(); ++j) {
         for (auto e = result.coefficients.offsets[j]; e < result.coefficients.offsets[j + 1]; ++e) {
             EXPECT_NE(
@@ -100,7 +100,7 @@ TEST(SubspaceSolver, MeshScopeKeepsToTheAllowedMeshes) {
     SubspaceProblem problem = random_subspace_problem(2, 10, 60, 10, 24);
     problem.scope = PenaltyScope::meshes;
     problem.allowed_meshes = {{1, 2}, {0, 5}, {3}, {2, 4}, {}, {0, 1}};
-    const SolveResult result = expect_same_on_any_ranks(problem, precise("auto", 1e-6));
+    const SolveResult result = expect_same_on_any_ranks(problem, precise(SolverChoice::automatic, 1e-6));
     EXPECT_EQ(result.reason, StopReason::gap_reached);
     for (std::size_t j = 0; j < problem.mesh_of.size(); ++j) {
         const auto& allowed = problem.allowed_meshes[static_cast<std::size_t>(problem.mesh_of[j])];
@@ -112,12 +112,12 @@ TEST(SubspaceSolver, MeshScopeKeepsToTheAllowedMeshes) {
     }
 }
 
-class UglyProblem : public testing::TestWithParam<const char*> {
+class UglyProblem : public testing::TestWithParam<SolverChoice> {
   protected:
     static void expect_certified(SubspaceProblem problem) {
         for (const PenaltyScope scope : {PenaltyScope::rows, PenaltyScope::meshes}) {
             problem.scope = scope;
-            if (scope == PenaltyScope::meshes && std::string(GetParam()) == "dense") continue;
+            if (scope == PenaltyScope::meshes && GetParam() == SolverChoice::dense) continue;
             const SolveResult result = expect_same_on_any_ranks(problem, precise(GetParam(), 1e-6));
             EXPECT_TRUE(result.reason == StopReason::gap_reached ||
                         result.reason == StopReason::residual_reached);
@@ -191,14 +191,15 @@ TEST(SubspaceSolver, SmallPenaltiesAreSolvedToTheLastDigits) {
     for (const double lambda : {0.0, 1e-3, 0.1}) {
         problem.lambda = lambda;
         problem.alpha = problem.beta = 0.01;
-        const SolveResult result = expect_same_on_any_ranks(problem, precise("working-set"));
+        const SolveResult result = expect_same_on_any_ranks(problem, precise(SolverChoice::working_set));
         EXPECT_EQ(result.reason, StopReason::gap_reached) << lambda;
         EXPECT_LE(result.relative_gap, 1e-8) << lambda;
         EXPECT_LT(result.iterations, 1000) << lambda;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, UglyProblem, testing::Values("dense", "working-set"));
+INSTANTIATE_TEST_SUITE_P(Solvers, UglyProblem,
+                         testing::Values(SolverChoice::dense, SolverChoice::working_set));
 
 TEST(SubspaceSolver, OracleProblems) {
     const std::filesystem::path folder = oracle_folder();
@@ -209,12 +210,12 @@ TEST(SubspaceSolver, OracleProblems) {
         problem.lambda = file.lambda;
         problem.alpha = file.alpha;
         problem.beta = file.beta;
-        for (const char* solver : {"dense", "working-set"}) {
+        for (const SolverChoice solver : {SolverChoice::dense, SolverChoice::working_set}) {
             const SolveResult result = expect_same_on_any_ranks(problem, precise(solver));
             EXPECT_LE(std::abs(result.objective - file.known_upper), 1e-8 * file.known_upper)
-                << name << solver;
-            EXPECT_LE(result.lower_bound, file.known_upper) << name << solver;
-            EXPECT_LE(result.relative_gap, 1e-8) << name << solver;
+                << name << to_string(solver);
+            EXPECT_LE(result.lower_bound, file.known_upper) << name << to_string(solver);
+            EXPECT_LE(result.relative_gap, 1e-8) << name << to_string(solver);
         }
     }
 }
@@ -223,7 +224,7 @@ TEST(SubspaceSolver, ALimitIsReported) {
     const Comm world(MPI_COMM_WORLD);
     SubspaceProblem problem = random_subspace_problem(2, 10, 40, 8, 41);
     problem.lambda = 1.0;
-    SolveOptions options = precise("dense", 1e-12);
+    SolveOptions options = precise(SolverChoice::dense, 1e-12);
     options.max_iterations = 3;
     const SolveResult result = solve_subspace(world, problem, options);
     EXPECT_EQ(result.reason, StopReason::iteration_limit);
@@ -261,7 +262,9 @@ TEST(SubspaceSolver, BadInputIsRefusedOnAllRanks) {
     bad.scope = PenaltyScope::meshes;
     bad.mesh_of.pop_back();
     EXPECT_NE(refusal(bad, {}).find("mesh of each"), std::string::npos);
-    EXPECT_NE(refusal(good, {.solver = "fast"}).find("unknown solver 'fast'"), std::string::npos);
+    bad = good;
+    bad.scope = PenaltyScope::meshes;
+    EXPECT_NE(refusal(bad, {.solver = SolverChoice::dense}).find("row scope only"), std::string::npos);
 }
 
 }  // namespace

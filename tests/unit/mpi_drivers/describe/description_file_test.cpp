@@ -20,11 +20,12 @@ using test::error_of;
 using test::TemporaryFolder;
 
 const DescriptionOptions quick{.seed = 3,
-                               .remesh = "auto",
+                               .remesh = RemeshMode::automatic,
                                .patches = 8,
                                .oversegmentations = 2,
                                .cut_noise = 0.3,
-                               .geodesic_samples = 20};
+                               .geodesic_samples = 20,
+                               .descriptors = {0, 1, 2, 3, 4}};
 
 MeshEntry small_mesh(const TemporaryFolder& folder) {
     write_off(folder.path("stool.off"), generate_shape("table", 1, 0, 2000).mesh);
@@ -37,7 +38,19 @@ void expect_equal(const std::vector<T>& a, const std::vector<T>& b, bool (*same)
     for (std::size_t k = 0; k < a.size(); ++k) ASSERT_TRUE(same(a[k], b[k])) << k;
 }
 
-void expect_same(const MeshDescription& a, const MeshDescription& b) {
+void expect_same(const FaceDescriptors& a, const FaceDescriptors& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        EXPECT_EQ(a[k].row, b[k].row);
+        EXPECT_EQ(a[k].values, b[k].values) << k;
+    }
+}
+
+void expect_same(const DescribedMesh& made, const DescribedMesh& read) {
+    const MeshDescription& a = made.mesh;
+    const MeshDescription& b = read.mesh;
+    EXPECT_EQ(made.descriptors.size(), quick.descriptors.size());
+    expect_same(made.descriptors, read.descriptors);
     EXPECT_EQ(a.mesh, b.mesh);
     EXPECT_EQ(a.key, b.key);
     EXPECT_EQ(a.input.corners, b.input.corners);
@@ -59,8 +72,6 @@ void expect_same(const MeshDescription& a, const MeshDescription& b) {
                    std::array{y.face_a, y.face_b, y.vertex_a, y.vertex_b, int{y.is_virtual}} &&
                x.length == y.length && x.dihedral == y.dihedral;
     });
-    for (std::size_t h = 0; h < a.descriptors.size(); ++h) EXPECT_EQ(a.descriptors[h], b.descriptors[h]) << h;
-    EXPECT_EQ(a.shape_context, b.shape_context);
     EXPECT_EQ(a.patches, b.patches);
     EXPECT_EQ(a.patch_counts, b.patch_counts);
     ASSERT_EQ(a.neighbors.size(), b.neighbors.size());
@@ -88,11 +99,11 @@ TEST(KeptDescription, IsTheSameToTheBitWhenReused) {
     const TemporaryFolder place;
     const MeshEntry entry = small_mesh(place);
     const StateFolder folder = StateFolder::make(place.path("state"));
-    const MeshDescription made = kept_description(4, entry, quick, nullptr);
-    const MeshDescription first = kept_description(4, entry, quick, &folder);
-    const MeshDescription second = kept_description(4, entry, quick, &folder);
-    EXPECT_FALSE(first.reused);
-    EXPECT_TRUE(second.reused);
+    const DescribedMesh made = kept_description(4, entry, quick, nullptr);
+    const DescribedMesh first = kept_description(4, entry, quick, &folder);
+    const DescribedMesh second = kept_description(4, entry, quick, &folder);
+    EXPECT_FALSE(first.mesh.reused);
+    EXPECT_TRUE(second.mesh.reused);
     expect_same(made, first);
     expect_same(made, second);
     EXPECT_EQ(folder.files().size(), 1U);
@@ -115,19 +126,20 @@ TEST(KeptDescription, IsMadeAnewIfItsFileIsDamaged) {
     const TemporaryFolder place;
     const MeshEntry entry = small_mesh(place);
     const StateFolder folder = StateFolder::make(place.path("state"));
-    const MeshDescription made = kept_description(0, entry, quick, &folder);
+    const DescribedMesh made = kept_description(0, entry, quick, &folder);
     const std::string file = folder.files().front().path;
     std::string bytes = content_of(file);
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     write_file(file, bytes);
-    MeshDescription again = kept_description(0, entry, quick, &folder);
-    EXPECT_FALSE(again.reused);
-    ASSERT_EQ(again.warnings.size(), made.warnings.size() + 1);
-    EXPECT_NE(again.warnings.back().find(file + ": is damaged"), std::string::npos) << again.warnings.back();
-    again.warnings.pop_back();
+    DescribedMesh again = kept_description(0, entry, quick, &folder);
+    EXPECT_FALSE(again.mesh.reused);
+    ASSERT_EQ(again.mesh.warnings.size(), made.mesh.warnings.size() + 1);
+    EXPECT_NE(again.mesh.warnings.back().find(file + ": is damaged"), std::string::npos)
+        << again.mesh.warnings.back();
+    again.mesh.warnings.pop_back();
     expect_same(made, again);
     EXPECT_EQ(folder.leftovers().size(), 1U);
-    EXPECT_TRUE(kept_description(0, entry, quick, &folder).reused);
+    EXPECT_TRUE(kept_description(0, entry, quick, &folder).mesh.reused);
 }
 
 TEST(KeptDescription, NamesAMeshThatHasMoved) {
@@ -137,14 +149,14 @@ TEST(KeptDescription, NamesAMeshThatHasMoved) {
     const std::string tetrahedron =
         "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
     const MeshEntry here{"t", place.file("t.off", tetrahedron), 1};
-    const MeshDescription first = kept_description(0, here, quick, &folder);
+    const DescribedMesh first = kept_description(0, here, quick, &folder);
     std::filesystem::create_directory(place.path("there"));
     const MeshEntry there{"t", place.file("there/t.off", tetrahedron), 1};
-    const MeshDescription second = kept_description(0, there, quick, &folder);
-    EXPECT_TRUE(second.reused);
-    ASSERT_EQ(first.warnings.size(), 1U);
-    EXPECT_TRUE(first.warnings.front().starts_with(here.path));
-    EXPECT_TRUE(second.warnings.front().starts_with(there.path));
+    const DescribedMesh second = kept_description(0, there, quick, &folder);
+    EXPECT_TRUE(second.mesh.reused);
+    ASSERT_EQ(first.mesh.warnings.size(), 1U);
+    EXPECT_TRUE(first.mesh.warnings.front().starts_with(here.path));
+    EXPECT_TRUE(second.mesh.warnings.front().starts_with(there.path));
 }
 
 TEST(DescriptionKey, ChangesWithAllThatMatters) {
@@ -154,14 +166,15 @@ TEST(DescriptionKey, ChangesWithAllThatMatters) {
     EXPECT_NE(description_key("OFF ", "a", "x/a.off", quick), key);
     EXPECT_NE(description_key(bytes, "b", "x/a.off", quick), key);
     EXPECT_NE(description_key(bytes, "a", "x/a.ply", quick), key);
-    for (int change = 0; change < 6; ++change) {
+    for (int change = 0; change < 7; ++change) {
         DescriptionOptions other = quick;
         if (change == 0) other.seed = 4;
         if (change == 1) other.patches = 9;
         if (change == 2) other.oversegmentations = 3;
         if (change == 3) other.cut_noise = 0.31;
         if (change == 4) other.geodesic_samples = 21;
-        if (change == 5) other.remesh = "never";
+        if (change == 5) other.remesh = RemeshMode::never;
+        if (change == 6) other.descriptors = {0, 1, 2, 3};
         EXPECT_NE(description_key(bytes, "a", "x/a.off", other), key) << change;
     }
 }

@@ -43,11 +43,11 @@ TEST(KeptCut, ReturnsWhatWasWritten) {
 }
 
 TEST(KeptCut, OptionsWithoutEffectAreLeftOut) {
-    const std::string text =
-        cut_option_text({{"parts", "3"}, {"out", "here"}, {"alpha", "0.1"}}, {"-eps_ncv", "80"});
-    EXPECT_EQ(text, "parts=3\nalpha=0.1\n-eps_ncv\n80\n");
-    EXPECT_EQ(text, cut_option_text({{"parts", "3"}, {"out", "there"}, {"quiet", "true"}, {"alpha", "0.1"}},
-                                    {"-eps_ncv", "80"}));
+    const std::vector<OptionValue> options = {{"parts", "3", Affects::cut},
+                                              {"out", "here", Affects::nothing},
+                                              {"refine", "held", Affects::output},
+                                              {"alpha", "0.1", Affects::solve}};
+    EXPECT_EQ(cut_option_text(options, {"-eps_ncv", "80"}), "parts=3\nalpha=0.1\n-eps_ncv\n80\n");
 }
 
 }  // namespace

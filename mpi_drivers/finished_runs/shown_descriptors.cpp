@@ -1,7 +1,7 @@
-#include "mpi_drivers/finished_runs/face_descriptors.hpp"
+#include "mpi_drivers/finished_runs/shown_descriptors.hpp"
 
+#include "mpi_drivers/describe/mesh_description.hpp"
 #include "src/base/index.hpp"
-#include "src/descriptors/shape_context.hpp"
 
 namespace coseg {
 
@@ -29,34 +29,20 @@ std::vector<double> per_input_face(const FaceMap& map, const Eigen::VectorXd& va
     return means;
 }
 
-Eigen::VectorXd mean_ring(const Eigen::MatrixXf& contexts) {
-    Eigen::VectorXd rings = Eigen::VectorXd::Zero(contexts.cols());
-    for (Eigen::Index f = 0; f < contexts.cols(); ++f) {
-        double total = 0.0;
-        for (Eigen::Index bin = 0; bin < contexts.rows(); ++bin) {
-            const Eigen::Index ring = bin % shape_context_bins / shape_context_angles;
-            rings[f] += static_cast<double>(ring) * contexts(bin, f);
-            total += contexts(bin, f);
-        }
-        if (total > 0.0) rings[f] /= total;
-    }
-    return rings;
-}
-
 }  // namespace
 
-FaceDescriptors face_descriptors(const FinishedRun& run, const LabelledMesh& shape) {
-    RunOptions options;
+std::vector<std::vector<double>> shown_descriptors(const FinishedRun& run, const LabelledMesh& shape,
+                                                   const std::vector<int>& chosen) {
+    DescriptionOptions options;
     options.seed = run.seed;
-    options.remesh = run.remesh;
+    options.remesh = named<RemeshMode>(run.remesh).value_or(options.remesh);
     options.patches = run.patches;
     options.geodesic_samples = run.geodesic_samples;
-    MeshDescription description =
-        describe_mesh_faces(shape.number, shape.name, shape.path, description_options(options));
-    description.descriptors[at(Feature::shape_context)] = mean_ring(description.shape_context);
-    FaceDescriptors values;
-    for (std::size_t h = 0; h < values.size(); ++h)
-        values[h] = per_input_face(description.map, description.descriptors[h], description.geometry.area);
+    options.descriptors = chosen;
+    const auto [mesh, descriptors] = describe_mesh_faces(shape.number, shape.name, shape.path, options);
+    std::vector<std::vector<double>> values;
+    for (const FaceDescriptor& descriptor : descriptors)
+        values.push_back(per_input_face(mesh.map, shown_values(descriptor), mesh.geometry.area));
     return values;
 }
 

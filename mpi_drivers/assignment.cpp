@@ -1,0 +1,58 @@
+#include "mpi_drivers/assignment.hpp"
+
+#include <utility>
+
+#include "mpi_drivers/describe/face_features.hpp"
+#include "mpi_drivers/describe/feature_stage.hpp"
+#include "mpi_drivers/describe/mesh_stage.hpp"
+#include "mpi_drivers/optimise/solution_output.hpp"
+#include "mpi_drivers/options/run_option_table.hpp"
+#include "mpi_drivers/partition/assign_stage.hpp"
+#include "mpi_drivers/partition/run_model.hpp"
+#include "mpi_drivers/process/checked_petsc.hpp"
+#include "mpi_drivers/results/label_stage.hpp"
+#include "mpi_drivers/results/run_folders.hpp"
+#include "mpi_drivers/results/run_results.hpp"
+
+namespace coseg {
+
+void assign(const Comm& comm, const std::string& run, const RunOptions& own,
+            const std::vector<std::string>& petsc_arguments) {
+    StageLog log(comm, own.process.verbosity(), own.process.log_form());
+    const CheckedPetsc petsc(comm, petsc_arguments);
+    const RunModel model = agreed_run_model(comm, run, log);
+    refuse_other_face_features(model, own.features);
+    const RunOptions options = options_of_assignment(model.options, own);
+    const auto& [preset, description, feature_options, optimise, partition, output, process] = options;
+    RunFolders folders(comm, output, process);
+
+    // Every new mesh by itself, as the run described its own.
+    auto [collection, descriptors] =
+        describe_collection(comm, list_meshes_outside(comm, process.inputs, output.folder),
+                            description_options(options), process.strict, folders.state(), log);
+
+    // The features of its patches, in the bins and words of the run.
+    CollectionDescriptors weighted =
+        weighted_descriptors(comm, collection, std::move(descriptors), feature_options);
+    refuse_other_dimensions(model, weighted);
+    const PatchFeatures features =
+        patch_features(comm, collection, std::move(weighted), feature_options, &model.bins, log);
+
+    // Its patches' coefficients over the run's patches, and labels that spread from these.
+    const Assigned assigned = assign_parts(comm, collection, features, model, optimise, log);
+
+    // The parts of faces, as in the run.
+    const std::vector<MeshLabels> labels =
+        label_faces(collection, assigned.cut.part_of_patch, partition.parts, output.refine, log);
+
+    std::vector<OptionValue> values = option_values(options);
+    values.push_back({"to", run, Affects::cut});
+    write_results(comm, folders.results(),
+                  {collection, features.ranges, assigned.optimisation, assigned.cut, labels, partition.parts,
+                   values, state_summary(comm, folders.state(), nullptr, collection)},
+                  output, log);
+    folders.commit(comm);
+    refuse_unreached_gap(assigned.optimisation.result, optimise.gap, output.folder);
+}
+
+}  // namespace coseg

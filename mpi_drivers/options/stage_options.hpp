@@ -1,0 +1,171 @@
+#pragma once
+// What each stage of a run is asked to do. A function takes the options of its own stage, and no others.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "solvers/affinity/affinity.hpp"
+#include "solvers/subspace/subspace_problem.hpp"
+#include "solvers/variants/subspace_variants.hpp"
+#include "src/base/enum_names.hpp"
+#include "src/descriptors/descriptor_table.hpp"
+#include "src/histograms/histogram.hpp"
+#include "src/parallel/stage_log.hpp"
+#include "src/pictures/shape_view.hpp"
+#include "src/records/fields.hpp"
+
+namespace coseg {
+
+/// Whether a mesh gets even triangles before it is described.
+enum class RemeshMode {
+    automatic,  ///< where its own are too long for patches
+    always,
+    never,
+};
+constexpr std::array<EnumName<RemeshMode>, 3> enum_names(RemeshMode /*type*/) {
+    return {{{RemeshMode::automatic, "auto"}, {RemeshMode::always, "always"}, {RemeshMode::never, "never"}}};
+}
+
+/// The options that a mesh's description depends on, and no others: the descriptions in a state folder are
+/// found by them (description_file.hpp).
+struct DescriptionOptions {
+    std::uint64_t seed = 1;
+    RemeshMode remesh = RemeshMode::automatic;
+    int patches = 50;           ///< per over-segmentation
+    int oversegmentations = 3;  ///< per mesh
+    double cut_noise = 0.3;     ///< log-normal deviation of edge weights between over-segmentations
+    int geodesic_samples = 300;
+    std::vector<int> descriptors;  ///< rows of descriptor_table(), ascending; see description_options
+    static constexpr auto fields() {
+        return std::tuple(field("seed", &DescriptionOptions::seed),
+                          field("remesh", &DescriptionOptions::remesh),
+                          field("patches", &DescriptionOptions::patches),
+                          field("oversegmentations", &DescriptionOptions::oversegmentations),
+                          field("cut-noise", &DescriptionOptions::cut_noise),
+                          field("geodesic-samples", &DescriptionOptions::geodesic_samples),
+                          field("descriptors", &DescriptionOptions::descriptors));
+    }
+};
+
+/// Between which values the bins of a scalar feature lie.
+enum class BinRanges {
+    adapted,  ///< curvature in bins of equal mass, the others rescaled per mesh
+    global,   ///< equal widths over all meshes
+};
+constexpr std::array<EnumName<BinRanges>, 2> enum_names(BinRanges /*type*/) {
+    return {{{BinRanges::adapted, "adapted"}, {BinRanges::global, "global"}}};
+}
+
+/// From descriptors of faces to features of patches.
+struct FeatureOptions {
+    std::uint64_t seed = 1;
+    int bins = 100;     ///< of a histogram; words of a set of shape contexts
+    int word_sets = 1;  ///< of shape contexts, whose similarities are averaged
+    HistogramScaling histogram = HistogramScaling::square_root;
+    BinRanges ranges = BinRanges::adapted;
+    std::vector<double> weights = default_descriptor_weights();  ///< of each row of descriptor_table()
+    std::string face_features;         ///< folder of what the user gives for every face; "": none
+    double face_feature_weight = 1.0;  ///< of these
+};
+
+/// In how many other meshes a patch may have matches, in mesh scope.
+struct LinkChoice {
+    enum class Rule {
+        automatic,
+        all,
+        number
+    };  ///< automatic: all in small collections, default_links in others
+    Rule rule = Rule::automatic;
+    int meshes = 0;  ///< Rule::number alone: at least 2
+};
+/// "auto", "all" or a number of at least 2; nothing for any other text.
+std::optional<LinkChoice> parsed_links(std::string_view text);
+std::string to_string(const LinkChoice& links);
+
+/// From features to coefficients.
+struct OptimiseOptions {
+    std::uint64_t seed = 1;  ///< of the sample of links
+    SubspaceVariant variant = SubspaceVariant::multi_feature;
+    std::string feature = "shape_diameter";  ///< variant single_feature only
+    PenaltyScope scope = PenaltyScope::meshes;
+    LinkChoice links;
+    double alpha = 0.01;    ///< of the l2,1 penalty
+    double beta = 0.1;      ///< of the l1 penalty
+    double lambda = 100.0;  ///< of the scope's squared sums
+    SolverChoice solver = SolverChoice::automatic;
+    double gap = 1e-4;  ///< relative duality gap at which the optimiser stops
+    int max_iterations = 10000;
+    double max_seconds = 3600.0;
+};
+
+/// How the patches become parts.
+enum class PartitionMethod {
+    spectral,   ///< normalised cut of the coefficients' affinity
+    diffusion,  ///< clusters of the descriptors alone, in a diffusion map
+};
+constexpr std::array<EnumName<PartitionMethod>, 2> enum_names(PartitionMethod /*type*/) {
+    return {{{PartitionMethod::spectral, "spectral"}, {PartitionMethod::diffusion, "diffusion"}}};
+}
+
+/// From coefficients to the part of every patch.
+struct PartitionOptions {
+    std::uint64_t seed = 1;  ///< of subsets, and of the diffusion map's clusters
+    int parts = 0;           ///< K
+    PartitionMethod method = PartitionMethod::spectral;
+    AffinityForm affinity = AffinityForm::links;
+    double drop_below = 0.0;  ///< entries of the affinity below are dropped
+    double cut_offset = 0.0;  ///< SpectralOptions::offset
+    double adjacency = 5.0;   ///< against the links between meshes; where `choose` is off
+    double overlap = 1.0;     ///< of over-segmentations, as a share of adjacency
+    double mesh_balance = 0.3;
+    int subsets = 0;          ///< meshes in a subset; 0: the collection is solved whole
+    bool segments = false;    ///< a second pass on whole segments
+    bool choose = true;       ///< among several starts
+    bool articulated = true;  ///< starts without adjacency, for shapes of many limbs
+    bool places = true;       ///< starts whose links are weighed by where their patches lie
+};
+
+/// How boundaries between parts are moved into creases.
+enum class RefineMode {
+    none,
+    fuzzy,  ///< fuzzy cuts (Katz and Tal 2003)
+    held,   ///< what is far from the boundary is held by its part
+};
+constexpr std::array<EnumName<RefineMode>, 3> enum_names(RefineMode /*type*/) {
+    return {{{RefineMode::none, "none"}, {RefineMode::fuzzy, "fuzzy"}, {RefineMode::held, "held"}}};
+}
+
+/// What a run leaves in its folder.
+struct OutputOptions {
+    std::string folder;
+    bool force = false;  ///< earlier results in the folder are replaced
+    RefineMode refine = RefineMode::held;
+    bool keep_features = false;
+    bool keep_model = true;
+    bool sheet = true;
+    bool html = true;
+    bool profile = false;
+    ViewChoice view;
+};
+
+/// Where a run's meshes and its kept state are, and what it says: nothing that it computes depends on these.
+struct ProcessOptions {
+    std::vector<std::string> inputs;
+    bool strict = false;  ///< a mesh that cannot be used ends the run
+    std::string config;
+    std::string state;  ///< folder; "" keeps nothing
+    double checkpoint_seconds = 60.0;
+    bool quiet = false;
+    bool verbose = false;
+    bool json_log = false;
+
+    [[nodiscard]] Verbosity verbosity() const noexcept;
+    [[nodiscard]] LogForm log_form() const noexcept { return json_log ? LogForm::json : LogForm::text; }
+};
+
+}  // namespace coseg

@@ -1,0 +1,76 @@
+#include "mpi_drivers/partition/partition_stage.hpp"
+
+#include <utility>
+
+#include "mpi_drivers/optimise/solution_output.hpp"
+#include "mpi_drivers/partition/segment_stage.hpp"
+#include "mpi_drivers/partition/subset_stage.hpp"
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+
+namespace coseg {
+
+namespace {
+
+std::string with_unit(std::int64_t count, const std::string& one, const std::string& many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures features,
+                            const PartitionTask& task, StageLog& log) {
+    log.begin("optimise");
+    Optimisation optimisation = optimise(comm, collection, features, task.optimise, task.tiles, &log);
+    log.end(describe(optimisation));
+    const int parts = task.partition.parts;
+    if (parts > 1) refuse_empty_solution(optimisation.result, "the collection");
+    const PartitionInput input =
+        partition_input(collection, std::move(features), optimisation.result.coefficients, task.partition);
+    log.begin("cut");
+    CutResult cut = cut_or_found(comm, input, task.partition, task.cuts);
+    log.end(with_unit(static_cast<std::int64_t>(cut.starts.size()), "start", "starts") + ", " +
+            std::to_string(parts) + " parts");
+    return {std::move(optimisation), std::move(cut)};
+}
+
+Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
+                                 const PatchFeatures& features, const PartitionTask& task, StageLog& log) {
+    log.begin("subsets");
+    SubsetOutcome outcome = partition_subsets(comm, collection, features, task);
+    log.end(with_unit(outcome.optimisation.subsets, "subset", "subsets") + ", " +
+            with_unit(outcome.optimisation.common_meshes, "common shape", "common shapes") + ", " +
+            significant(100.0 * outcome.optimisation.subset_agreement) + " % agreement on these");
+    return {std::move(outcome.optimisation), std::move(outcome.cut)};
+}
+
+Partitioned first_pass(const Comm& comm, const Collection& collection, PatchFeatures features,
+                       const PartitionTask& task, StageLog& log) {
+    const int subset = task.partition.subsets;
+    const bool is_whole = subset == 0 || static_cast<int>(collection.meshes.size()) <= subset;
+    return is_whole ? partition_whole(comm, collection, std::move(features), task, log)
+                    : partition_in_subsets(comm, collection, features, task, log);
+}
+
+}  // namespace
+
+void refuse_too_many_parts(const Collection& collection, int parts) {
+    const int patches = collection.numbering.patch_count();
+    if (parts <= patches) return;
+    throw AgreedError(ExitCode::input,
+                      "--parts " + std::to_string(parts) + " exceeds the " + std::to_string(patches) +
+                          " patches of the collection; ask for fewer parts or more --patches");
+}
+
+Partitioned partition_stage(const Comm& comm, const Collection& collection, PatchFeatures features,
+                            const PartitionTask& task, StageLog& log) {
+    if (collection.meshes.size() == 1)
+        log.warn("one mesh alone: it is cut by its own features, with nothing to agree with");
+    if (!task.partition.segments) return first_pass(comm, collection, std::move(features), task, log);
+    Partitioned done =
+        first_pass(comm, collection, features, task, log);  // the second pass asks for them again
+    log.begin("segments");
+    done.cut = partition_segments(comm, collection, features, done.cut, task);
+    log.end("second pass");
+    return done;
+}
+
+}  // namespace coseg

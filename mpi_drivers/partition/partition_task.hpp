@@ -1,0 +1,18 @@
+#pragma once
+// What the solves and cuts of one run have in common, however many there are: of the whole collection, of
+// subsets, of segments.
+
+#include "mpi_drivers/options/stage_options.hpp"
+#include "mpi_drivers/partition/partition_checkpoint.hpp"
+#include "solvers/subspace/solver_checkpoint.hpp"
+
+namespace coseg {
+
+struct PartitionTask {
+    const OptimiseOptions& optimise;
+    const PartitionOptions& partition;
+    SolverCheckpoint* tiles = nullptr;    ///< null where no state is kept
+    PartitionCheckpoint* cuts = nullptr;  ///< likewise
+};
+
+}  // namespace coseg

@@ -1,0 +1,71 @@
+#include "mpi_drivers/results/run_folders.hpp"
+
+#include <filesystem>
+#include <set>
+
+#include "mpi_drivers/describe/mesh_stage.hpp"
+#include "src/base/error.hpp"
+#include "src/parallel/record_exchange.hpp"
+
+namespace coseg {
+
+namespace {
+
+std::optional<RunState> opened_state(const Comm& comm, const ProcessOptions& process) {
+    if (process.state.empty()) return std::nullopt;
+    return std::optional<RunState>(std::in_place, comm, process.state, LockMode::exclusive,
+                                   process.checkpoint_seconds);
+}
+
+void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::string& out) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const fs::path results = fs::weakly_canonical(fs::absolute(out), ignored);
+    std::set<fs::path> seen;  // a collection has far fewer folders than meshes
+    for (const MeshEntry& entry : entries) {
+        const fs::path parent = fs::absolute(entry.path).parent_path();
+        if (!seen.insert(parent).second) continue;
+        for (const char* own : {"labels", "patches", "ply"}) {
+            if (!fs::equivalent(parent, results / own, ignored)) continue;
+            throw Error(ExitCode::output, entry.path + ": lies in the folder " + own +
+                                              "/ of the results, which the run replaces; name another --out");
+        }
+    }
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(const Comm& comm, const std::string& path, bool force) {
+    agree(comm, [&] {
+        if (!comm.is_root()) return;
+        const TerminationPause pause;
+        on_root_.emplace(path, force);
+        watch_.emplace([this] { on_root_->abandon(); });
+    });
+    if (comm.is_root()) staging_ = on_root_->staging();
+    broadcast(comm, staging_);
+}
+
+void ResultFolder::commit(const Comm& comm) {
+    agree(comm, [&] {
+        if (comm.is_root()) on_root_->commit();
+    });
+}
+
+RunFolders::RunFolders(const Comm& comm, const OutputOptions& output, const ProcessOptions& process)
+    : state_(opened_state(comm, process)), results_(comm, output.folder, output.force) {}
+
+void RunFolders::end_if_asked(const Comm& comm, const std::string& kept) const {
+    if (state_) state_->end_if_asked(comm, kept);
+}
+
+std::vector<MeshEntry> list_meshes_outside(const Comm& comm, const std::vector<std::string>& inputs,
+                                           const std::string& results) {
+    std::vector<MeshEntry> entries = list_meshes(comm, inputs);
+    agree(comm, [&] {
+        if (comm.is_root()) refuse_input_in_results(entries, results);
+    });
+    return entries;
+}
+
+}  // namespace coseg

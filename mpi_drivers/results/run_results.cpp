@@ -1,0 +1,43 @@
+#include "mpi_drivers/results/run_results.hpp"
+
+#include "io/reports/report_page.hpp"
+#include "mpi_drivers/results/picture_stage.hpp"
+#include "mpi_drivers/results/report_stage.hpp"
+
+namespace coseg {
+
+std::optional<ReportState> state_summary(const Comm& comm, const RunState* state,
+                                         const RunCheckpoints* checkpoints, const Collection& collection) {
+    if (state == nullptr) return std::nullopt;
+    ReportState summary;
+    summary.folder = state->folder().path();
+    for (const MeshFacts& mesh : collection.meshes)
+        ++(mesh.reused ? summary.meshes_reused : summary.meshes_described);
+    if (checkpoints == nullptr) return summary;
+    const RunCheckpoints::Counts counts = checkpoints->counts(comm);
+    summary.tiles_reused = counts.tiles_found;
+    summary.tiles_solved = counts.tiles_solved;
+    summary.cuts_reused = counts.cuts_found;
+    return summary;
+}
+
+void write_results(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
+                   const OutputOptions& options, StageLog& log) {
+    log.begin("write");
+    write_meshes(comm, folder, outcome.collection, outcome.labels);
+    log.end(options.folder);
+    if (options.sheet) {
+        log.begin("picture");
+        write_run_sheet(comm, folder, outcome.collection, outcome.labels, outcome.parts, options.view);
+        write_affinity_picture(comm, folder, outcome);
+        log.end(options.folder + "/contact_sheet.png");
+    }
+    write_run_report(comm, folder, outcome, log);
+    if (options.html && can_write_report_page()) {
+        log.begin("page");
+        write_html_report(comm, {folder, {}, ""}, folder, options.view);
+        log.end(options.folder + "/report.html");
+    }
+}
+
+}  // namespace coseg

@@ -1,0 +1,190 @@
+#include "mpi_drivers/options/run_option_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "mpi_drivers/describe/description_file.hpp"
+#include "mpi_drivers/optimise/optimise_stage.hpp"
+#include "mpi_drivers/optimise/solver_checkpoint_files.hpp"
+#include "mpi_drivers/partition/partition_checkpoint.hpp"
+#include "src/base/index.hpp"
+
+namespace coseg {
+namespace {
+
+/// What a command line of `coseg run` comes to; throws what the parser throws.
+RunOptions parsed(std::vector<std::string> words) {
+    CLI::App app;
+    RunOptions options;
+    const RunOptionTable table(app, options);
+    if (std::find(words.begin(), words.end(), "--parts=4") == words.end()) words.emplace_back("--parts=3");
+    if (std::find(words.begin(), words.end(), "--out=elsewhere") == words.end())
+        words.emplace_back("--out=here");
+    words.emplace_back("meshes");
+    std::reverse(words.begin(), words.end());
+    app.parse(words);
+    return options;
+}
+
+std::map<std::string, OptionValue> by_key(const RunOptions& options) {
+    std::map<std::string, OptionValue> values;
+    for (const OptionValue& option : option_values(options)) values[option.key] = option;
+    return values;
+}
+
+/// Another value of every option of the table but --config and --preset, as it stands on the command line.
+const std::map<std::string, std::vector<std::string>> changes = {
+    {"parts", {"--parts=4"}},
+    {"out", {"--out=elsewhere"}},
+    {"keep-model", {"--no-keep-model"}},
+    {"force", {"--force"}},
+    {"profile", {"--profile"}},
+    {"strict", {"--strict"}},
+    {"keep-features", {"--keep-features"}},
+    {"quiet", {"--quiet"}},
+    {"verbose", {"--verbose"}},
+    {"json-log", {"--json-log"}},
+    {"seed", {"--seed=2"}},
+    {"state", {"--state=folder"}},
+    {"checkpoint-seconds", {"--checkpoint-seconds=5"}},
+    {"sheet", {"--no-sheet"}},
+    {"html", {"--no-html"}},
+    {"view", {"--view=front"}},
+    {"up", {"--up=z"}},
+    {"remesh", {"--remesh=never"}},
+    {"patches", {"--patches=51"}},
+    {"oversegmentations", {"--oversegmentations=2"}},
+    {"cut-noise", {"--cut-noise=0.2"}},
+    {"geodesic-samples", {"--geodesic-samples=301"}},
+    {"bins", {"--bins=101"}},
+    {"word-sets", {"--word-sets=2"}},
+    {"histogram", {"--histogram=counts"}},
+    {"ranges", {"--ranges=global"}},
+    {"feature-weights", {"--feature-weights=1,1,1,1,1"}},
+    {"face-features", {"--face-features=folder"}},
+    {"face-feature-weight", {"--face-feature-weight=2"}},
+    {"variant", {"--variant=ssc"}},
+    {"feature", {"--feature=average_geodesic"}},
+    {"scope", {"--scope=rows"}},
+    {"links", {"--links=7"}},
+    {"alpha", {"--alpha=0.02"}},
+    {"beta", {"--beta=0.2"}},
+    {"lambda", {"--lambda=3"}},
+    {"solver", {"--solver=working-set"}},
+    {"gap", {"--gap=1e-3"}},
+    {"max-iterations", {"--max-iterations=9"}},
+    {"max-seconds", {"--max-seconds=9"}},
+    {"affinity", {"--affinity=formula-8"}},
+    {"drop-below", {"--drop-below=1e-3"}},
+    {"cut-offset", {"--cut-offset=0.5"}},
+    {"adjacency", {"--adjacency=4"}},
+    {"overlap", {"--overlap=2"}},
+    {"mesh-balance", {"--mesh-balance=0.1"}},
+    {"choose", {"--no-choose"}},
+    {"subsets", {"--subsets=5"}},
+    {"segments", {"--segments"}},
+    {"partition", {"--partition=diffusion"}},
+    {"refine", {"--refine=none"}},
+    {"articulated", {"--no-articulated"}},
+    {"places", {"--no-places"}},
+};
+
+std::string cut_text(const RunOptions& options) { return cut_option_text(option_values(options), {}); }
+
+ContentHash description_key_of(const RunOptions& options) {
+    return description_key("OFF", "a", "a.off", description_options(options));
+}
+
+TEST(RunOptionTable, EveryOptionIsTestedForWhatItAffects) {
+    for (const auto& [key, option] : by_key({})) {
+        EXPECT_NE(name_of(option.affects), "") << key;
+        if (key == "preset" || key == "config") {
+            EXPECT_EQ(option.affects, Affects::nothing) << key;
+            continue;
+        }
+        ASSERT_TRUE(changes.contains(key)) << key << " is new: add it to the list of changes";
+        const OptionValue changed = by_key(parsed(changes.at(key))).at(key);
+        EXPECT_NE(changed.value, by_key(parsed({})).at(key).value) << key;
+    }
+}
+
+TEST(RunOptionTable, ACutIsFoundAgainUnlessAnOptionOfItsStagesChanges) {
+    const std::string text = cut_text(parsed({}));
+    for (const auto& [key, option] : by_key({})) {
+        if (!changes.contains(key)) continue;
+        const bool counts = option.affects != Affects::nothing && option.affects != Affects::output;
+        EXPECT_EQ(cut_text(parsed(changes.at(key))) != text, counts) << key;
+    }
+    // What a preset stands for counts, its name does not.
+    EXPECT_NE(cut_text(parsed({"--preset=paper"})), text);
+    EXPECT_EQ(cut_text(parsed({"--preset=default"})), text);
+}
+
+TEST(RunOptionTable, ADescriptionIsFoundAgainUnlessAnOptionOfItChanges) {
+    const ContentHash hash = description_key_of(parsed({}));
+    for (const auto& [key, option] : by_key({})) {
+        if (!changes.contains(key)) continue;
+        EXPECT_EQ(description_key_of(parsed(changes.at(key))) != hash, option.affects == Affects::describe)
+            << key;
+    }
+}
+
+/// The key of the optimiser's tiles for three small meshes.
+ContentHash tile_key(const OptimiseOptions& options) {
+    Collection collection;
+    collection.meshes.resize(3);
+    for (int m = 0; m < 3; ++m) collection.meshes[at(m)].name = std::to_string(m);
+    collection.numbering = PatchNumbering(1, {2, 2, 2});
+    SubspaceProblem problem = subspace_problem(collection, options);
+    problem.features = std::vector<Eigen::MatrixXd>{Eigen::MatrixXd::Identity(6, 6)};
+    return problem_key(problem, solve_options(options));
+}
+
+TEST(RunOptionTable, TilesAreFoundAgainUnlessAnOptionOfTheSolveChanges) {
+    const ContentHash key = tile_key(parsed({}).optimise);
+    for (const auto& [name, option] : by_key({})) {
+        if (!changes.contains(name) || option.affects == Affects::solve) continue;
+        EXPECT_EQ(tile_key(parsed(changes.at(name)).optimise), key) << name;
+    }
+    for (const char* name : {"scope", "alpha", "beta", "lambda", "solver", "gap", "max-iterations"})
+        EXPECT_NE(tile_key(parsed(changes.at(name)).optimise), key) << name;
+}
+
+TEST(RunOptionTable, ThePapersPresetIsASetOfValues) {
+    const RunOptions paper = parsed({"--preset", "paper"});
+    EXPECT_EQ(paper.optimise.scope, PenaltyScope::rows);
+    EXPECT_EQ(paper.partition.affinity, AffinityForm::formula_8);
+    EXPECT_EQ(paper.partition.drop_below, 1e-6);
+    EXPECT_EQ(paper.partition.cut_offset, 0.5);
+    EXPECT_EQ(paper.partition.mesh_balance, 0.0);
+    EXPECT_EQ(paper.output.refine, RefineMode::fuzzy);
+    EXPECT_EQ(parsed({"--alpha", "0.5", "--preset", "paper"}).optimise.alpha, 0.5);
+    for (const std::string& name : preset_names()) EXPECT_EQ(preset_options(name).preset, name);
+}
+
+TEST(RunOptionTable, OldWordsAreUnderstoodAndNewOnesReported) {
+    EXPECT_EQ(parsed({"--scope", "paper"}).optimise.scope, PenaltyScope::rows);
+    EXPECT_EQ(parsed({"--scope", "mesh"}).optimise.scope, PenaltyScope::meshes);
+    EXPECT_EQ(by_key(parsed({"--scope", "paper"})).at("scope").value, "rows");
+}
+
+TEST(RunOptionTable, TheSeedIsThatOfEveryStage) {
+    const RunOptions options = parsed({"--seed", "9"});
+    for (const std::uint64_t seed :
+         {options.description.seed, options.features.seed, options.optimise.seed, options.partition.seed})
+        EXPECT_EQ(seed, 9U);
+}
+
+TEST(RunOptionTable, LinksAreAWordOrANumber) {
+    EXPECT_EQ(to_string(parsed({"--links", "all"}).optimise.links), "all");
+    EXPECT_EQ(parsed({"--links", "12"}).optimise.links.meshes, 12);
+    for (const char* text : {"1", "0", "-3", "2x", "", "some", "99999999999"})
+        EXPECT_FALSE(parsed_links(text)) << text;
+    EXPECT_THROW(parsed({"--links", "1"}), CLI::ValidationError);
+    EXPECT_THROW(parsed({"--scope", "columns"}), CLI::ValidationError);
+}
+
+}  // namespace
+}  // namespace coseg
