@@ -130,7 +130,10 @@ void write_affinity_picture(const Comm& comm, const std::string& folder, const R
     if (all_sum(comm, static_cast<std::int64_t>(coefficients.rows.size())) == 0) return;
     const AffinityPicture picture =
         affinity_picture(comm, coefficients, outcome.cut.part_of_patch, outcome.parts, picture_bins);
-    agree(comm, [&] {});
+    agree(comm, [&] {
+        if (comm.is_root())
+            write_png(folder + "/affinity.png", affinity_image(picture.rows, picture.part_ends));
+    });
 }
 
 }  // namespace coseg

@@ -50,7 +50,8 @@ std::vector<RowMoments> row_moments(const Comm& comm, const SparseRows& links,
     return moments;
 }
 
-/// The density p of normal x and y of spread 1 with correlation r; what does not depend on them is found once.
+/// The density p of normal x and y of spread 1 with correlation r; what does not depend on them is found
+/// once.
 class PairDensity {
   public:
     explicit PairDensity(double r) : r_(r), rest_(1.0 - r * r), at_centre_(-0.5 * std::log(rest_)) {}

@@ -1,5 +1,6 @@
 #pragma once
-// Whether linked patches lie at the same place of their meshes, in collections whose shapes stand alike.
+// Measures whether linked patches have the same position in their meshes, for collections whose shapes stand
+// alike.
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,17 +11,18 @@
 
 namespace coseg {
 
-/// `links`: this rank's rows of a symmetric affinity; those inside a mesh do not count. `positions`: 3 x N, column major, of all
-/// patches, each mesh centred and scaled alike; `mesh_of` per patch; both the same on all ranks. A common affine map of the
-/// positions changes neither the correlations nor what weigh_by_position makes of them. The same bits on any number of ranks.
+/// `links` are this rank's rows of a symmetric affinity; those inside a mesh do not count. `positions` are
+/// those of all patches, 3 x N, column major, each mesh centred and scaled in the same way. `mesh_of` is per
+/// patch. Both are the same on all ranks. A common affine map of the positions changes neither the
+/// correlations nor the factors of weigh_by_position. The result has the same bits on any number of ranks.
 /// Collective. Source: canonical correlation analysis, Hotelling 1936.
 PositionFrame position_frame(const Comm& comm, const SparseRows& links, const Eigen::Matrix3Xd& positions,
                              const std::vector<int>& mesh_of);
 
-/// Each link between meshes times p(x, y) / (p(x) p(y)), x and y the positions of its ends and p their normal distribution with
-/// the correlations of the frame: how much likelier the two are as ends of a link than side by side by chance. Without
-/// correlation that is 1. Does not communicate.
-/// Deviates: not in the paper, whose descriptors do not know where a patch lies.
+/// Multiplies each link between meshes by p(x, y) / (p(x) p(y)), where x and y are the positions of its ends
+/// and p is their normal distribution with the correlations of the frame. The factor says how much likelier
+/// the two positions are as ends of a link than by chance. Without correlation it is 1. Does not communicate.
+/// Deviates: this is not in the paper, whose descriptors do not know where a patch lies.
 void weigh_by_position(const PositionFrame& frame, const Eigen::Matrix3Xd& positions,
                        const std::vector<int>& mesh_of, SparseRows& links);
 

@@ -69,7 +69,8 @@ std::vector<std::size_t> short_list(std::span<const double> scores, const std::v
     return list;
 }
 
-/// Share of the deviation over all partitions below which differences inside the short list are not magnified.
+/// Share of the deviation over all partitions below which differences inside the short list are not
+/// magnified.
 constexpr double least_share = 0.15;
 
 /// Histograms weighted by area and summed over the patches of each part in each mesh.

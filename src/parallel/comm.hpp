@@ -44,7 +44,7 @@ class Comm {
     int size_ = 1;
 };
 
-/// Runs `step` on this rank, then agrees: if it threw on any rank, all ranks throw the same AgreedError, that of the
+/// Runs `step` on this rank. If it throws on any rank, all ranks throw the same AgreedError, that of the
 /// lowest failing rank. `step` must not communicate. Collective.
 void agree(const Comm& comm, const std::function<void()>& step);
 
@@ -58,7 +58,7 @@ void in_messages(std::int64_t total, Send&& send, std::int64_t longest = longest
         send(first, static_cast<int>(std::min(longest, total - first)));
 }
 
-/// Concatenation over ranks, in the order of ranks, on all ranks; of any length. Collective.
+/// The values of all ranks, joined in the order of ranks, on all ranks. Collective.
 std::vector<double> all_gather(const Comm& comm, std::span<const double> local);
 std::vector<int> all_gather(const Comm& comm, std::span<const int> local);
 std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local,

@@ -1,5 +1,5 @@
 #pragma once
-// One scoped timer a stage: one line of progress on rank 0, and a row of the report's table.
+// Measures the time of each stage: one line of progress on rank 0, and one row of the report's table.
 
 #include <chrono>
 #include <string>
@@ -19,40 +19,42 @@ class StageLog {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// verbose: the steps of each stage under its line. json: one JSON object a line for every stage and warning, no bar.
+    /// With verbose, the steps of each stage are printed under its line. With json, there is one JSON object
+    /// a line for every stage and warning, and no bar.
     StageLog(const Comm& comm, Verbosity verbosity, LogForm form = LogForm::text);
 
     void begin(const std::string& stage);
 
-    /// The share done and the time left, on rank 0: in one line that is drawn over where standard error is a terminal, else a
-    /// line a minute. Not collective.
+    /// Prints the share done and the time left on rank 0. Where standard error is a terminal, one line is
+    /// drawn over again and again; otherwise there is one line a minute. Not collective.
     void progress(std::int64_t done, std::int64_t total);
 
-    /// Ends this rank's own work in the stage: what follows until end() is waiting. Not collective.
+    /// Ends this rank's own work in the stage. The time from here until end() is waiting. Not collective.
     void end_of_own_work();
 
-    /// Says how long this rank spent on a step of the stage. Not collective, but every rank must name the same
-    /// steps in the same order before end().
+    /// Says how long this rank spent on a step of the stage. Not collective, but every rank must name the
+    /// same steps in the same order before end().
     void step(const std::string& name, double seconds);
 
-    /// From here on the spans of this rank are kept for trace(), their starts counted from the moment at which all
-    /// ranks have come here. Collective.
+    /// From here on the spans of this rank are kept for trace(). Their starts are counted from the moment at
+    /// which all ranks have come here. Collective.
     void keep_trace();
 
     /// Notes a span inside the current stage, if spans are kept. Not collective.
     void span(const std::string& name, const std::string& category, Clock::time_point start,
               Clock::time_point end);
 
-    /// Collective: closes the stage and prints its line, `summary` being what rank 0 says of the result.
+    /// Closes the stage and prints its line, with `summary` as what rank 0 says of the result. Collective.
     void end(const std::string& summary);
 
-    /// Prints a sentence on rank 0 once, whatever rank says it first. Not collective; root only speaks.
+    /// Prints a sentence on rank 0; other ranks print nothing. Not collective.
     void warn(const std::string& sentence) const;
 
     [[nodiscard]] const std::vector<StageTimes>& stages() const noexcept { return stages_; }
     [[nodiscard]] double seconds_since_start() const;
 
-    /// Spans of this rank: stages, what span() noted in them, and as "wait" what followed the rank's own work.
+    /// The spans of this rank: the stages, what span() noted in them, and as "wait" the time after the rank's
+    /// own work.
     [[nodiscard]] const RankTrace& trace() const noexcept { return trace_; }
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// What comes of cutting the patches of a collection into parts.
+// The result of cutting the patches of a collection into parts.
 
 #include <tuple>
 #include <vector>
@@ -12,10 +12,11 @@ namespace coseg {
 struct CutResult {
     std::vector<int> part_of_patch;  ///< 0 .. parts - 1, by decreasing mean area share; the same on all ranks
     std::vector<double> part_share;  ///< mean over meshes of the part's share of area
-    std::vector<int> meshes_with_part;  ///< in how many meshes the part occurs; few is a warning sign
-    std::vector<StartOutcome> starts;   ///< in the order in which they were asked for
-    std::vector<double>
-        eigenvalues;      ///< of the chosen start's graph, descending, one for each of its clusters
+    /// The number of meshes in which the part occurs; a small one is a warning sign.
+    std::vector<int> meshes_with_part;
+    std::vector<StartOutcome> starts;  ///< in the order in which they were asked for
+    /// of the chosen start's graph, descending, one for each of its clusters.
+    std::vector<double> eigenvalues;
     PositionFrame frame;  ///< of the base; without correlation where no start is placed
     int chosen = 0;       ///< the start taken: best_partition of those with the most parts
     static constexpr auto fields() {

@@ -1,5 +1,5 @@
 #pragma once
-// A record says its fields once: the list from which it is packed for other ranks, written to files and
+// Lets a record say its fields once. From this list it is packed for other ranks, written to files and
 // hashed.
 
 #include <array>
@@ -25,7 +25,7 @@ namespace coseg {
 /// How a field is kept in a file.
 enum class Storage {
     plain,
-    compressed,  ///< worth it for large data with many equal values
+    compressed,  ///< for large data with many equal values
 };
 
 /// One entry of a record's list.
@@ -41,13 +41,14 @@ constexpr Field<R, T> field(const char* name, T R::*member, Storage storage = St
     return {name, member, storage};
 }
 
-/// A record that is a field of another, its fields listed as if they were the other's own.
+/// A record that is a field of another. Its fields are listed as if they were the other's own.
 template <class R, class T>
 constexpr Field<R, T> inlined(T R::*member) {
     return {"", member, Storage::plain};
 }
 
-/// A member that stays where it is: it is in the list, so that the list is complete, and is carried nowhere.
+/// A member that stays where it is. It is in the list so that the list is complete, but it is carried
+/// nowhere.
 template <class R, class T>
 struct LocalMember {
     T R::*member;

@@ -1,5 +1,5 @@
 #pragma once
-// What is known of the meshes of a collection, on all ranks and in the report.
+// What all ranks and the report know of the meshes of a collection.
 
 #include <string>
 #include <tuple>
@@ -9,7 +9,7 @@
 
 namespace coseg {
 
-/// What every rank knows of a mesh; `mesh` counts usable meshes only, in the collection's order.
+/// What every rank knows of a mesh. `mesh` counts usable meshes only, in the collection's order.
 struct MeshFacts {
     std::string name;
     std::string path;

@@ -1,5 +1,5 @@
 #pragma once
-// Records as bytes, for ranks of the same program: what one packs, another unpacks.
+// Packs records as bytes for ranks of the same program, and unpacks them.
 
 #include <cstddef>
 #include <cstdint>
@@ -60,7 +60,7 @@ class Packer {
     std::vector<std::byte> bytes_;
 };
 
-/// Takes values off bytes in the order in which they were added. Throws Error(internal) where there are too
+/// Takes values from bytes in the order in which they were added. Throws Error(internal) where there are too
 /// few bytes.
 class Unpacker {
   public:
@@ -119,7 +119,7 @@ class Unpacker {
             for (std::size_t k = 0; k < length; ++k) values.push_back(taken<T>());
         }
     }
-    /// Of elements of at least so many bytes, which must be there.
+    /// Takes the length of a list whose elements have at least `element_bytes` bytes. They must be there.
     std::size_t take_length(std::size_t element_bytes) {
         const auto length = taken<std::uint64_t>();
         if (length > rest_.size() / element_bytes) refuse();

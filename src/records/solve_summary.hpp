@@ -1,5 +1,5 @@
 #pragma once
-// How close a solve came to the optimum, and how it got there.
+// Says how close a solve came to the optimum, and how it got there.
 
 #include <array>
 #include <cstdint>

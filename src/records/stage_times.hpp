@@ -1,5 +1,5 @@
 #pragma once
-// What the stages of a run took.
+// The times that the stages of a run took.
 
 #include <string>
 #include <tuple>
@@ -23,11 +23,11 @@ struct StepTime {
 
 struct StageTimes {
     std::string stage;
-    double seconds_min = 0.0;  ///< the shortest time any rank worked on the stage, waiting left out
+    double seconds_min = 0.0;  ///< the shortest time that any rank worked on the stage, without waiting
     double seconds_mean = 0.0;
     double seconds_max = 0.0;
-    double seconds_wall = 0.0;    ///< from the first line of the stage to its agreed end, waiting included
-    std::vector<StepTime> steps;  ///< where the stage says so: what its work was spent on
+    double seconds_wall = 0.0;    ///< from the first line of the stage to its agreed end, with waiting
+    std::vector<StepTime> steps;  ///< the steps of the stage, if it names any
     static constexpr auto fields() {
         return std::tuple(
             field("stage", &StageTimes::stage), field("seconds_min", &StageTimes::seconds_min),

@@ -1,6 +1,7 @@
 #pragma once
-// A start of the cut, what speaks for the partition that came of it, and how that is weighed. A new term of
-// the choice stands here and where it is found (solvers/partition/partition_choice.cpp), and nowhere else.
+// A start of the cut, the terms that speak for the partition that it gave, and their weights. A new term of
+// the choice is added here and where it is computed (solvers/partition/partition_choice.cpp), and nowhere
+// else.
 
 #include <array>
 #include <string_view>
@@ -26,9 +27,9 @@ struct GraphWeights {
     }
 };
 
-/// Which two clusters become one.
+/// Says which two clusters are merged next.
 enum class MergeRule {
-    normalized_cut,  ///< those whose union increases the normalised cut (Shi and Malik 2000) the least
+    normalized_cut,  ///< those whose union raises the normalised cut (Shi and Malik 2000) the least
     /// Those with the largest links / sqrt(volume * volume). This spares a small cluster that hangs together
     /// less well than the large ones, which the normalised cut gives up first.
     linkage,
@@ -37,7 +38,7 @@ constexpr std::array<EnumName<MergeRule>, 2> enum_names(MergeRule /*type*/) {
     return {{{MergeRule::normalized_cut, "normalized_cut"}, {MergeRule::linkage, "linkage"}}};
 }
 
-/// One attempt: the graph is cut into `clusters`, these are merged into the parts by their links in it.
+/// One attempt: the graph is cut into `clusters`, and these are merged into the parts by their links in it.
 struct CutStart {
     GraphWeights graph;
     int clusters = 2;
@@ -49,11 +50,11 @@ struct CutStart {
     }
 };
 
-/// How much of a descriptor's spread inside the meshes lies between the parts, see between_part_variance();
-/// in [0, 1].
+/// The share of a descriptor's spread inside the meshes that lies between the parts, in [0, 1]; see
+/// between_part_variance().
 struct BetweenPartVariance {
-    double pooled = 0.0;    ///< by one mean a part, the same in all meshes
-    double per_mesh = 0.0;  ///< by means of each mesh's own; at least `pooled`, but for rounding
+    double pooled = 0.0;    ///< with one mean for each part, the same in all meshes
+    double per_mesh = 0.0;  ///< with means of each mesh's own; at least `pooled`, up to rounding
     friend bool operator==(const BetweenPartVariance&, const BetweenPartVariance&) = default;
     static constexpr auto fields() {
         return std::tuple(field("pooled", &BetweenPartVariance::pooled),
@@ -61,11 +62,11 @@ struct BetweenPartVariance {
     }
 };
 
-/// What speaks for a partition; larger is better in each.
+/// The terms by which partitions are compared; larger is better in each.
 struct PartitionTerms {
     double crease = 0.0;                         ///< see boundary_crease(); at most 0
     double overlap = 0.0;                        ///< see overlap_agreement(); in [0, 1]
-    std::vector<BetweenPartVariance> explained;  ///< per descriptor that the choice looks at
+    std::vector<BetweenPartVariance> explained;  ///< one for each descriptor that the choice uses
     /// The mean concavity mc along the boundaries between parts, weighted by length; in [0, 1].
     double concavity = 0.0;
     double presence = 0.0;          ///< see presence(); in [0, 1]
@@ -80,24 +81,25 @@ struct PartitionTerms {
     }
 };
 
-/// How the terms are weighed: crease, overlap and what is explained of the descriptors make a score; among
-/// the partitions whose score comes within `margin` of the best, the last three decide together with it.
+/// The weights of the terms. Crease, overlap and the explained shares of the descriptors make a score. Among
+/// the partitions whose score comes within `margin` of the best, the last three terms decide together with
+/// the score.
 struct ChoiceWeights {
     double crease = 1.9;
     double overlap = 1.6;
-    /// Deviations over the partitions that count at least: where nearly all partitions are alike, what sets
-    /// the odd one apart is not magnified.
+    /// The least standard deviations over the partitions. Where nearly all partitions are alike, a deviation
+    /// below these would magnify what is different in the odd one.
     double least_crease = 0.2;
     double least_overlap = 0.0025;
     double least_explained = 0.07;
-    double margin = 0.3;  ///< share of the way from the best score down to the median of all
-    double score = 1.3;   ///< of the score itself among those within the margin
+    double margin = 0.3;  ///< share of the way from the best score to the median of all
+    double score = 1.3;   ///< weight of the score among the partitions within the margin
     double concavity = 1.2;
     double presence = 0.8;
     double link_consistency = 0.6;
 };
 
-/// What came of a start.
+/// The outcome of a start.
 struct StartOutcome {
     CutStart start;
     PartitionTerms terms;
