@@ -114,11 +114,11 @@ TEST(KeptDescription, OfARemeshedMeshSaysWhichWorkingFaceIsNearest) {
     const MeshEntry entry = small_mesh(place);
     const StateFolder folder = StateFolder::make(place.path("state"));
     DescriptionOptions remeshed = quick;
-    remeshed.remesh = "always";
-    const MeshDescription made = kept_description(4, entry, remeshed, &folder);
-    const MeshDescription again = kept_description(4, entry, remeshed, &folder);
-    EXPECT_TRUE(again.reused);
-    EXPECT_FALSE(made.map.nearest_working.empty());
+    remeshed.remesh = RemeshMode::always;
+    const DescribedMesh made = kept_description(4, entry, remeshed, &folder);
+    const DescribedMesh again = kept_description(4, entry, remeshed, &folder);
+    EXPECT_TRUE(again.mesh.reused);
+    EXPECT_FALSE(made.mesh.map.nearest_working.empty());
     expect_same(made, again);
 }
 

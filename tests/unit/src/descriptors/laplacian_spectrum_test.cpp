@@ -10,8 +10,6 @@
 namespace coseg {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 LaplacianSpectrum spectrum_of(const TriMesh& mesh, int pairs = 100) {
     const FaceGeometry geometry = face_geometry(mesh);
     return laplacian_spectrum(mesh, geometry, dual_graph(mesh, geometry), pairs);
@@ -45,8 +43,9 @@ TEST(LaplacianSpectrum, OfASquareWithABorderIsKnown) {
     const std::vector<double> squares = {1, 1, 2, 4, 4, 5, 5, 8};
     ASSERT_EQ(spectrum.eigenvalues.size(), 8);
     for (Eigen::Index k = 0; k < 8; ++k)
-        EXPECT_NEAR(spectrum.eigenvalues[k], pi * pi * squares[static_cast<std::size_t>(k)],
-                    0.02 * pi * pi * squares[static_cast<std::size_t>(k)])
+        EXPECT_NEAR(spectrum.eigenvalues[k],
+                    std::numbers::pi * std::numbers::pi * squares[static_cast<std::size_t>(k)],
+                    0.02 * std::numbers::pi * std::numbers::pi * squares[static_cast<std::size_t>(k)])
             << k;
     expect_orthonormal(mesh, spectrum);
 }

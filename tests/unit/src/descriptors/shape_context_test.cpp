@@ -25,20 +25,20 @@ TriMesh bumpy_torus() {
     return mesh;
 }
 
-struct Described {
+struct Contexts {
     FaceGeometry geometry;
     GeodesicTable table;
 };
 
-Described described(const TriMesh& mesh, int samples) {
-    Described d{face_geometry(mesh), {}};
+Contexts described(const TriMesh& mesh, int samples) {
+    Contexts d{face_geometry(mesh), {}};
     d.table = geodesic_table(mesh, d.geometry, dual_graph(mesh, d.geometry), samples, 1);
     return d;
 }
 
 Eigen::MatrixXf context_of(const TriMesh& mesh, int samples,
                            ShapeContextNormal normal = ShapeContextNormal::both) {
-    const Described d = described(mesh, samples);
+    const Contexts d = described(mesh, samples);
     return shape_context(d.table, d.geometry, normal);
 }
 
@@ -54,7 +54,7 @@ double mean_difference(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b) {
 }
 
 TEST(ShapeContext, HasTheBinsOfTheDefinition) {
-    const Described d = described(bumpy_torus(), 80);
+    const Contexts d = described(bumpy_torus(), 80);
     const double largest = d.table.distance.maxCoeff();
     for (const auto normal : {ShapeContextNormal::face, ShapeContextNormal::sample}) {
         const Eigen::MatrixXf context = shape_context(d.table, d.geometry, normal);
