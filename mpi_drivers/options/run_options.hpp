@@ -10,8 +10,8 @@
 namespace coseg {
 
 struct RunOptions {
-    std::string preset =
-        "default";  ///< for the report alone: what it stands for is in the options of the stages
+    /// For the report alone: what it stands for is in the options of the stages.
+    std::string preset = "default";
     DescriptionOptions description;
     FeatureOptions features;
     OptimiseOptions optimise;

@@ -1,6 +1,5 @@
 #pragma once
-// From coefficients to the part of every patch: hands the relations of patches, in global numbers, to the
-// cut.
+// Finds the part of every patch from coefficients: gives the pairs of patches, in global numbers, to the cut.
 
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
@@ -12,7 +11,7 @@
 
 namespace coseg {
 
-/// What ties the patches of this rank's meshes together, in global numbers.
+/// The pairs of patches of this rank's meshes that touch or overlap, in global numbers.
 std::vector<GlobalPatchNeighbors> local_neighbors(const Collection& collection);
 std::vector<GlobalPatchOverlap> local_overlaps(const Collection& collection);
 
@@ -32,7 +31,8 @@ struct PartitionInput {
 PartitionInput partition_input(const Collection& collection, PatchFeatures features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options);
 
-/// Collective. K must not exceed the number of patches. Throws AgreedError(not_converged).
+/// Cuts the patches into K parts. K must not exceed the number of patches. Collective. Throws
+/// AgreedError(not_converged).
 CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const PartitionOptions& options);
 
 }  // namespace coseg

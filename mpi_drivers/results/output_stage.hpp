@@ -1,5 +1,5 @@
 #pragma once
-// What a run leaves: labels, patches and coloured meshes per shape, and the report.
+// Writes what a run leaves: labels, patches and coloured meshes of each shape, and the report.
 
 #include <optional>
 #include <string>

@@ -12,10 +12,10 @@ enum class LaplacianWeights {
     uniform     ///< those of equilateral faces, whatever the shape of the faces
 };
 
-/// L, V x V, symmetric positive semidefinite: x^T L x is the Dirichlet energy of the function that is linear on every face
-/// and has the values x at the vertices. Free of unit and scale; rows sum to 0; the row of a vertex that no face uses is
-/// empty. Borders are free (natural boundary conditions).
-/// Source: Pinkall and Polthier 1993. Deviates: a face whose height is less than 1e-6 of its longest edge enters as an
+/// L, V x V, symmetric positive semidefinite: x^T L x is the Dirichlet energy of the function that is linear
+/// on every face and has the values x at the vertices. Free of unit and scale; rows sum to 0; the row of a
+/// vertex that no face uses is empty. Borders are free (natural boundary conditions). Source: Pinkall and
+/// Polthier 1993. Deviates: a face whose height is less than 1e-6 of its longest edge enters as an
 /// equilateral one, so that weights stay finite and neighbours stay coupled.
 Eigen::SparseMatrix<double> cotangent_laplacian(const TriMesh& mesh,
                                                 LaplacianWeights weights = LaplacianWeights::cotangent);

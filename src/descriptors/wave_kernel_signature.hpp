@@ -1,6 +1,6 @@
 #pragma once
-// The wave kernel signature: how likely a particle of a given energy is found at a place of the surface. Equal on parts of
-// equal form, bent or not.
+// The wave kernel signature: how likely a particle of a given energy is found at a place of the surface.
+// Equal on parts of equal form, bent or not.
 
 #include <Eigen/Core>
 
@@ -25,8 +25,8 @@ inline constexpr int wave_kernel_energies = 100;  ///< values a face
 Eigen::MatrixXf wave_kernel_signature(const TriMesh& mesh, const FaceGeometry& geometry,
                                       const LaplacianSpectrum& spectrum);
 
-/// One number for each of the columns of signatures: their mean over the lower half of the energies, high at the tips of
-/// limbs.
+/// One number for each of the columns of signatures: their mean over the lower half of the energies, high at
+/// the tips of limbs.
 Eigen::VectorXd wave_kernel_level(const Eigen::MatrixXf& signatures);
 
 }  // namespace coseg
