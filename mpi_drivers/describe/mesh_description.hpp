@@ -59,7 +59,7 @@ struct MeshDescription {
     bool reused = false;  ///< read from a state folder
     double seconds = 0.0;
     std::vector<StepSpan> step_spans;  ///< ascending in time, disjoint
-    /// What a state folder keeps; the rest belongs to a run or stands in the mesh's own file.
+    /// The fields that a state folder keeps; the others belong to a run or are in the mesh's own file.
     static constexpr auto fields() {
         return std::tuple(
             local(&MeshDescription::mesh), local(&MeshDescription::key), local(&MeshDescription::input),
@@ -73,7 +73,7 @@ struct MeshDescription {
     }
 };
 
-/// A mesh as the stages from the patches on see it, and the values that become its features.
+/// The data of a mesh that the later stages need, and the values of which its features are made.
 struct DescribedMesh {
     MeshDescription mesh;
     FaceDescriptors descriptors;  ///< of the working faces

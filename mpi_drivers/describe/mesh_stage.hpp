@@ -23,13 +23,13 @@ struct Collection {
     PatchNumbering numbering{1, {}};     ///< all ranks
 };
 
-/// The values of the faces that the features are made of.
+/// The values of faces of which the features are made.
 struct CollectionDescriptors {
     std::vector<Descriptor> table;         ///< descriptor_table(); see weighted_descriptors
     std::vector<FaceDescriptors> of_mesh;  ///< of collection.local, in its order; `row` is of `table`
 };
 
-/// What the first stage hands over.
+/// The result of the first stage.
 struct DescribedCollection {
     Collection collection;
     CollectionDescriptors descriptors;

@@ -41,13 +41,13 @@ struct ModelPatches {
 };
 ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed);
 
-/// Writes the model into the folder on rank 0, where alone `patches` is asked for. Collective; throws
+/// Writes the model into the folder on rank 0; only there `patches` is needed. Collective; throws
 /// AgreedError(output).
 void write_run_model(const Comm& comm, const std::string& folder, const Collection& collection,
                      const ModelPatches& patches, const std::vector<int>& part_of_patch,
                      const RunOptions& options);
 
-/// Features that users give must be given of the run's shapes and of the new ones, or of neither. Throws
+/// Features that users give must be given for the run's shapes and for the new ones, or for neither. Throws
 /// AgreedError(usage).
 void refuse_other_face_features(const RunModel& model, const FeatureOptions& own);
 /// Throws AgreedError(input) where the new shapes have another number of them for a face than the run's.

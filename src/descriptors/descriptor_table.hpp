@@ -1,5 +1,6 @@
 #pragma once
-// The descriptors of a face, one row each. Everything that runs over descriptors runs over this table.
+// The table of the descriptors of a face, one row for each. Everything that runs over descriptors runs over
+// this table.
 
 #include <Eigen/Core>
 #include <string>
@@ -22,8 +23,8 @@ enum class BinKind {
     words                 ///< vectors, grouped by k-means over the collection; a bin is a word
 };
 
-/// How much a descriptor counts when one of several partitions is chosen. See BetweenPartVariance
-/// (solvers/partition/partition_choice.hpp).
+/// The weight of a descriptor when one of several partitions is chosen. See BetweenPartVariance
+/// (src/records/start_outcome.hpp).
 struct PartitionWeight {
     double pooled = 0.0;
     double per_mesh = 0.0;
