@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that users give for every face of a mesh, for instance the output of a trained network.
+// Reads numbers that users give for every face of a mesh, for instance the output of a trained network.
 
 #include <Eigen/Core>
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace coseg {
 
-/// FOLDER/NAME.npy or FOLDER/NAME.h5, where NAME is that of the mesh. Throws Error(input) if neither or both
-/// are there.
+/// The path FOLDER/NAME.npy or FOLDER/NAME.h5, where NAME is that of the mesh. Throws Error(input) if neither
+/// or both are there.
 std::string face_feature_path(const std::string& folder, const std::string& name);
 
 /// d x F, column major: the numbers of each face of the mesh file, in the order of its faces. The file holds
