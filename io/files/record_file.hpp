@@ -32,7 +32,7 @@ std::string path_of(const std::string& path, const Field<R, T>& entry) {
     return path + "/" + name;
 }
 
-/// What a scalar is in a file.
+/// The type of a scalar in a file.
 template <class T>
 auto kept(T value) {
     if constexpr (std::is_floating_point_v<T>) {
@@ -49,7 +49,7 @@ auto kept(T value) {
 template <class T>
 using Kept = decltype(kept(std::declval<T>()));
 
-/// Where the values of a column are: they are copied once, into what the library writes.
+/// The values of a column by reference. They are copied once, into what the library writes.
 template <class T>
 using Places = std::vector<const T*>;
 
@@ -240,7 +240,7 @@ std::vector<R> read_rows(const Hdf5Reader& file, const std::string& path) {
 
 }  // namespace record_file
 
-/// A row for each of `values`: records, or anything that a field may be.
+/// Writes one row for each of `values`, which are records or anything that a field may be.
 template <class T>
 void write_column(Hdf5Writer& file, const std::string& name, const std::vector<T>& values,
                   Storage storage = Storage::plain) {
@@ -254,7 +254,8 @@ void write_column(Hdf5Writer& file, const std::string& name, const std::vector<T
     }
 }
 
-/// What write_column wrote. Throws Error(input) where it is not there or its parts do not fit together.
+/// Reads what write_column has written. Throws Error(input) where it is not there or its parts do not fit
+/// together.
 template <class T>
 std::vector<T> read_column(const Hdf5Reader& file, const std::string& name) {
     if constexpr (Scalar<T>) {
@@ -285,7 +286,7 @@ std::vector<T> read_column(const Hdf5Reader& file, const std::string& name) {
     }
 }
 
-/// One record, its fields under `path`; "" is the root.
+/// Writes one record with its fields under `path`; "" is the root.
 template <Record R>
 void write_record(Hdf5Writer& file, const std::string& path, const R& record) {
     for_each_field(record, [&](const auto& entry, const auto& member) {
@@ -314,7 +315,7 @@ void write_record(Hdf5Writer& file, const std::string& path, const R& record) {
     });
 }
 
-/// What write_record wrote. Throws Error(input) where a field is not there.
+/// Reads what write_record has written. Throws Error(input) where a field is not there.
 template <Record R>
 void read_record(const Hdf5Reader& file, const std::string& path, R& record) {
     for_each_field(record, [&](const auto& entry, auto& member) {

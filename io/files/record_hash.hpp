@@ -1,5 +1,5 @@
 #pragma once
-// Records into a hash: every field counts, so that a new one cannot be left out of a key.
+// Adds records to a hash. Every field counts, so that a new one cannot be left out of a key.
 
 #include <span>
 #include <string>
@@ -11,7 +11,8 @@
 
 namespace coseg {
 
-/// Adds a record, or anything that a field may be, each told apart from its neighbours by its size.
+/// Adds a record, or anything that a field may be. The size of each value is added too, so that neighbours
+/// cannot be confused.
 template <class T>
 void add_value(ContentHasher& hasher, const T& value) {
     if constexpr (std::is_arithmetic_v<T>) {

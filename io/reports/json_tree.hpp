@@ -1,5 +1,5 @@
 #pragma once
-// A JSON text in the making, without the library that makes it.
+// Makes a JSON text. The header does not need the library that makes it.
 
 #include <cstdint>
 #include <memory>
@@ -25,10 +25,10 @@ class JsonPlace {
     void set(bool value) const;
     void set(std::int64_t value) const;
     void set(std::uint64_t value) const;
-    /// null where it is not finite, which JSON cannot say.
+    /// Sets the number; null where it is not finite, which JSON cannot express.
     void set(double value) const;
     void set(std::string_view text) const;
-    /// The number or truth value that the text is, else the text.
+    /// Sets the number or the truth value that the text spells, else the text.
     void set_typed(const std::string& text) const;
 
   private:

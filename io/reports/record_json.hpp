@@ -1,5 +1,5 @@
 #pragma once
-// Records as JSON: a record is an object with a member for each field.
+// Writes records as JSON: a record is an object with a member for each field.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace coseg {
 
-/// A record, or anything that a field may be. Vectors and pairs are arrays, an optional value that is not
-/// there is null or, as a field, left out; an enumeration with names is a text; a matrix is an array of its
-/// columns, a vector of Eigen an array of its entries.
+/// Sets a record, or anything that a field may be. Vectors and pairs are arrays. An optional value that is
+/// not there is null, or is left out if it is a field. An enumeration with names is a text. A matrix is an
+/// array of its columns, a vector of Eigen an array of its entries.
 template <class T>
 void set_json(JsonPlace place, const T& value) {
     if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
@@ -52,7 +52,7 @@ void set_json(JsonPlace place, const T& value) {
     }
 }
 
-/// The fields of a record as members of an object that may have others.
+/// Sets the fields of a record as members of an object that may have others.
 template <Record R>
 void set_json_members(JsonPlace object, const R& record) {
     for_each_field(record, [&](const auto& entry, const auto& member) {

@@ -61,8 +61,8 @@ std::string in_terms_of(const FeatureFile& file, const std::string& path, const 
            ", columns their rows, both counted from 1)";
 }
 
-/// Rank 0 reads, and its features become those of all; relations stay there, since each is to be given to the cut by
-/// one rank.
+/// Rank 0 reads, and its features become those of all; relations stay there, since each is to be given to the
+/// cut by one rank.
 FeatureFile read_and_broadcast(const Comm& comm, const std::string& path, FeatureMatrices& features) {
     FeatureFile file;
     agree(comm, [&] {

@@ -1,4 +1,5 @@
-// `coseg man` and `coseg completion`: the manual page and the shell's completion, made from the options that are declared.
+// `coseg man` and `coseg completion`: the manual page and the shell's completion, made from the options that
+// are declared.
 
 #include <CLI/CLI.hpp>
 #include <iostream>

@@ -1,5 +1,5 @@
 #pragma once
-// What users give for every face, as one more descriptor of the collection.
+// Makes one more descriptor of the collection out of numbers that users give for every face.
 
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/stage_options.hpp"
@@ -7,11 +7,11 @@
 
 namespace coseg {
 
-/// The descriptors with the run's weights and, if options.face_features names a folder, a row more for what
-/// it holds, with its values of each mesh of this rank: those of the face of the file that a working face
-/// came from. They are read anew in every run, so no description depends on them. No row where their weight
-/// is 0. Collective. Throws AgreedError(input) as read_face_features, and where meshes have different numbers
-/// a face.
+/// The descriptors with the run's weights. If options.face_features names a folder, there is one more row for
+/// its numbers, with the values of each mesh of this rank: a working face has those of the face of the file
+/// that it came from. The numbers are read again in every run, so that no description depends on them. There
+/// is no row where their weight is 0. Collective. Throws AgreedError(input) as read_face_features does, and
+/// where meshes have different numbers a face.
 CollectionDescriptors weighted_descriptors(const Comm& comm, const Collection& collection,
                                            CollectionDescriptors descriptors, const FeatureOptions& options);
 

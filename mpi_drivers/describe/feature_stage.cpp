@@ -92,7 +92,8 @@ Eigen::MatrixXd mesh_histograms(const MeshDescription& mesh, const std::vector<i
     return columns;
 }
 
-/// The rows from `first` on, as many as there are bins, become the histograms of this rank's patches, divided and weighted.
+/// The rows from `first` on, as many as there are bins, become the histograms of this rank's patches, divided
+/// and weighted.
 void fill_histograms(const Comm& comm, const FeatureInput& input, const BinsOfMeshes& bins, double divisor,
                      Eigen::Index first, FeatureMatrices::Block rows) {
     const Collection& collection = input.collection;
@@ -126,8 +127,9 @@ BinsOfMeshes nearest_words(const Comm& comm, const std::vector<ShapeWordInput>& 
     return bins;
 }
 
-/// Histograms over several sets of words, one below the other, scaled so that inner products are the mean over the
-/// sets (square roots), or columns the mean: where k-means puts its borders is chance, which several sets even out.
+/// Histograms over several sets of words, one below the other, scaled so that inner products are the mean
+/// over the sets (square roots), or columns the mean: where k-means puts its borders is chance, which several
+/// sets even out.
 std::vector<Eigen::MatrixXf> fill_word_histograms(const Comm& comm, const FeatureInput& input,
                                                   const std::vector<FaceValues>& values,
                                                   const FeatureMatrices::Block& rows) {

@@ -1,5 +1,6 @@
 #pragma once
-// From descriptors of faces to features of patches: agreed ranges, shape words, histograms, gathered on every node.
+// Makes features of patches from descriptors of faces: ranges on which all ranks agree, shape words, and
+// histograms, which are gathered on every node.
 
 #include <Eigen/Core>
 #include <string>
@@ -17,12 +18,13 @@
 
 namespace coseg {
 
-/// What turns the values of faces into bins, so that shapes that come later fall into the same ones: a range for numbers;
-/// for vectors the centres of the words, d x words for every set.
+/// The rule that turns the values of faces into bins, so that shapes that come later fall into the same ones.
+/// For numbers it is a range; for vectors it is the centres of the words, d x words for every set.
 using FeatureBins = std::variant<FeatureRange, std::vector<Eigen::MatrixXf>>;
 
 struct PatchFeatures {
-    /// Features with positive weight: bins x N each (words: bins word_sets x N), times the weight; once a node.
+    /// Features with positive weight: bins x N each (words: bins word_sets x N), times the weight; once a
+    /// node.
     FeatureMatrices histograms;
     HistogramScaling scaling = HistogramScaling::square_root;
     std::vector<Descriptor> descriptors;  ///< what each of them describes, with the weight of the run
@@ -32,10 +34,11 @@ struct PatchFeatures {
     std::vector<NamedRange> ranges;  ///< the bin range of every feature of numbers, for the report
 };
 
-/// descriptors: each is freed as soon as its feature is made; rows without a weight are left out.
-/// given: the bins of an earlier collection, one for each feature, which are kept; null: they are made from this one.
-/// The log has the stage "features", and a warning where every rank has features of its own, for want of shared memory.
-/// Collective; the same bits on every rank and on any number of ranks.
+/// Each of `descriptors` is freed as soon as its feature is made; rows without a weight are left out. `given`
+/// holds the bins of an earlier collection, one for each feature, which are kept; with null they are made
+/// from this one. The log has the stage "features", and a warning where every rank holds features of its own
+/// because shared memory is too small. Collective; the result has the same bits on every rank and on any
+/// number of ranks.
 PatchFeatures patch_features(const Comm& comm, const Collection& collection,
                              CollectionDescriptors descriptors, const FeatureOptions& options,
                              const std::vector<FeatureBins>* given, StageLog& log);

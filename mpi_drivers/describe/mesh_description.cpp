@@ -28,8 +28,9 @@ constexpr int faces_per_patch = 20;
 constexpr int fewest_even_faces = 60;
 constexpr int most_even_faces = 400;
 
-/// Share of the area in overlong triangles above which `--remesh auto` remeshes. The labelled sets have up to 0.56 (a
-/// chair) and are cut well as they are; solids of revolution of few rings, which are not, have 0.8 and more.
+/// Share of the area in overlong triangles above which `--remesh auto` remeshes. The labelled sets have up to
+/// 0.56 (a chair) and are cut well as they are; solids of revolution of few rings, which are not, have 0.8
+/// and more.
 constexpr double most_overlong_area = 0.7;
 
 /// Adds the time since it was made, or since the last step, to a step of the description.

@@ -1,5 +1,6 @@
 #pragma once
-// All that is computed from one mesh alone: its patches, how they touch and overlap, and the descriptors of its faces.
+// Computes everything that depends on one mesh alone: its patches, how they touch and overlap, and the
+// descriptors of its faces.
 
 #include <Eigen/Core>
 #include <chrono>
@@ -20,10 +21,10 @@
 
 namespace coseg {
 
-/// What the time of a description is spent on, in the order of the work.
+/// The steps of a description, in the order of the work.
 std::vector<std::string> describe_steps(const DescriptionOptions& options);
 
-/// A stretch of work on one step; a step may have several.
+/// A span of work on one step. A step may have several spans.
 struct StepSpan {
     std::string step;
     std::chrono::steady_clock::time_point start;
@@ -58,7 +59,7 @@ struct MeshDescription {
     bool reused = false;  ///< read from a state folder
     double seconds = 0.0;
     std::vector<StepSpan> step_spans;  ///< ascending in time, disjoint
-    /// What a state folder keeps; the rest belongs to a run or stands in the mesh's own file.
+    /// The fields that a state folder keeps; the others belong to a run or are in the mesh's own file.
     static constexpr auto fields() {
         return std::tuple(
             local(&MeshDescription::mesh), local(&MeshDescription::key), local(&MeshDescription::input),
@@ -72,15 +73,15 @@ struct MeshDescription {
     }
 };
 
-/// A mesh as the stages from the patches on see it, and the values that become its features.
+/// The data of a mesh that the later stages need, and the values of which its features are made.
 struct DescribedMesh {
     MeshDescription mesh;
     FaceDescriptors descriptors;  ///< of the working faces
 };
 
-/// Repairs, over-segments and describes one mesh. bytes: the content of the file at `path`. Serial; a function of the
-/// bytes, the name, the extension of the path and the options alone, but for the path in warnings.
-/// Throws Error(input) if the file cannot be used.
+/// Repairs, over-segments and describes one mesh. `bytes` are the content of the file at `path`. Serial. The
+/// result is a function of the bytes, the name, the extension of the path and the options alone, except for
+/// the path in warnings. Throws Error(input) if the file cannot be used.
 DescribedMesh describe_mesh(int mesh, const std::string& name, const std::string& path,
                             std::string_view bytes, const DescriptionOptions& options);
 

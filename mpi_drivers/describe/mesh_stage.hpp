@@ -1,5 +1,6 @@
 #pragma once
-// The first stage: meshes are dealt over the ranks, largest first, and each is read and described where it was dealt.
+// The first stage: meshes are shared out among the ranks, largest first, and each is read and described on
+// its rank.
 
 #include <string>
 #include <vector>
@@ -22,26 +23,27 @@ struct Collection {
     PatchNumbering numbering{1, {}};     ///< all ranks
 };
 
-/// The values of the faces that the features are made of.
+/// The values of faces of which the features are made.
 struct CollectionDescriptors {
     std::vector<Descriptor> table;         ///< descriptor_table(); see weighted_descriptors
     std::vector<FaceDescriptors> of_mesh;  ///< of collection.local, in its order; `row` is of `table`
 };
 
-/// What the first stage hands over.
+/// The result of the first stage.
 struct DescribedCollection {
     Collection collection;
     CollectionDescriptors descriptors;
 };
 
-/// The meshes that a command line names, in the collection's order, on all ranks. Rank 0 alone asks the file system.
-/// Collective; throws AgreedError(input) as expand_mesh_list does.
+/// The meshes that a command line names, in the collection's order, on all ranks. Rank 0 alone asks the file
+/// system. Collective; throws AgreedError(input) as expand_mesh_list does.
 std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs);
 
-/// Collective. Throws AgreedError(input) if no mesh can be used, or if `strict` and any cannot. With a state (may
-/// be null) descriptions are taken from its folder and kept there; throws AgreedError(output) if one cannot be
-/// written, AgreedError(checkpointed) if a rank has been asked to end.
-/// The log has the stage "describe". What each rank computes depends on the schedule; the result, apart from `owner` and `seconds`, does not.
+/// Describes all meshes. Collective. Throws AgreedError(input) if no mesh can be used, or with options.strict
+/// if any cannot. With a state (may be null), descriptions are taken from its folder and kept there; throws
+/// AgreedError(output) if one cannot be written, AgreedError(checkpointed) if a rank has been asked to end.
+/// The schedule decides which rank computes what; the result, apart from `owner` and `seconds`, does not
+/// depend on it.
 DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
                                         const DescriptionOptions& options, bool strict, const RunState* state,
                                         StageLog& log);
@@ -53,7 +55,8 @@ struct DescribeTotals {
     std::vector<std::string> warnings;  ///< the same on all ranks, like the rest
 };
 
-/// Descriptions into the folder of `state`, none of them kept in memory. Collective; throws as describe_collection.
+/// Writes descriptions into the folder of `state`; none of them is kept in memory. Collective; throws as
+/// describe_collection.
 DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry>& entries,
                                    const DescriptionOptions& options, bool strict, const RunState& state,
                                    StageLog& log);

@@ -1,5 +1,6 @@
 #pragma once
-// Columns of patches, computed where their mesh is, brought to every rank in the global order of patches.
+// Gathers columns of patches, which are computed where their mesh is, on every rank in the global order of
+// patches.
 
 #include <Eigen/Core>
 #include <vector>
@@ -9,8 +10,9 @@
 
 namespace coseg {
 
-/// local[k]: rows x numbering.count(mesh of collection.local[k]), the columns of one mesh's patches, its over-segmentations
-/// in order. Returns rows x N on every rank. Collective; `rows` must be the same on every rank.
+/// local[k] is rows x numbering.count(mesh of collection.local[k]): the columns of one mesh's patches, its
+/// over-segmentations in order. Returns rows x N on every rank. Collective; `rows` must be the same on every
+/// rank.
 Eigen::MatrixXd gather_patch_columns(const Comm& comm, const Collection& collection,
                                      const std::vector<Eigen::MatrixXd>& local, Eigen::Index rows);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of contact sheets: what colours the faces, what the legend says.
+// The kinds of contact sheets: they differ in what colours the faces and in what the legend says.
 
 #include <string>
 #include <vector>
@@ -20,15 +20,15 @@ SheetHeading parts_heading(const std::vector<double>& part_area, int shapes);
 /// The colour of each face by its part, or by its patch.
 std::vector<Color> colors_of(const std::vector<int>& labels);
 
-/// What is known of the parts besides the run.
+/// What is known of the parts beside the run itself.
 struct PartKey {
     std::vector<int> label_of_part;  ///< from agree_on_truth; empty: no truth is given
     LabelNames names;                ///< of the truth's labels, or of the parts if no truth is given
 };
 
-/// The shapes drawn as `kind` asks, on this rank, and the heading, on all. Truth and errors need label_of_part. Truth takes
-/// the colour of the part that stands for it, labels for which none stands take the colours behind those of the parts.
-/// Collective; throws AgreedError.
+/// The shapes of this rank, drawn as `kind` asks, and the heading, which is on all ranks. Truth and errors
+/// need label_of_part. A true label has the colour of the part that stands for it; labels for which no part
+/// stands take the colours after those of the parts. Collective; throws AgreedError.
 struct DrawnKind {
     std::vector<DrawnShape> shapes;
     SheetHeading heading;

@@ -32,7 +32,8 @@ UpAxis agreed_up(const Comm& comm, const std::vector<const DrawnShape*>& looked)
     }
     shares.reduce(comm);
     const std::vector<double>& sums = shares.scalars();
-    // Most files have y up, but y is the breadth rather than the height where the shapes are alike to both sides.
+    // Most files have y up, but y is the breadth rather than the height where the shapes are alike to both
+    // sides.
     constexpr double alike = 0.04;
     const double preference = sums[3] >= alike * sums[4] ? 0.65 : 1.0;
     if (sums[1] >= preference * std::max(sums[0], sums[2])) return UpAxis::y;

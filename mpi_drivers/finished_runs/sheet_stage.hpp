@@ -1,5 +1,5 @@
 #pragma once
-// Contact sheets: every rank draws its own shapes, rank 0 lays them out and writes PNG files.
+// Makes contact sheets: every rank draws its own shapes, and rank 0 lays them out and writes PNG files.
 
 #include <string>
 #include <vector>
@@ -12,9 +12,10 @@
 
 namespace coseg {
 
-/// Up to here a collection fits on one page; beyond, contact_sheet.png is an index of thumbnails.
+/// Up to this number of shapes a collection fits on one page. Beyond it, contact_sheet.png is an index of
+/// thumbnails.
 inline constexpr int shapes_a_page = 60;
-/// Of so many shapes at most: of a larger collection every second, third ... shape.
+/// The index shows at most this number of shapes: of a larger collection every second, third ... shape.
 inline constexpr int shapes_an_index = 1500;
 
 /// What faces are coloured by, beside the descriptors.
@@ -32,10 +33,10 @@ struct DrawnShape {
     PictureMesh picture;
 };
 
-/// One view for the whole collection. auto: the up axis on which the shapes stand best (y where it is as good
-/// as another), and of the candidates the view that shows the largest outlines, each shape counting the same.
-/// Collective; the same on any number of ranks. shapes_local: of this rank. Throws AgreedError(usage) for an
-/// unknown name.
+/// Finds one view for the whole collection. With auto, the up axis is the one on which the shapes stand best
+/// (y where it is as good as another), and of the candidates the view is taken that shows the largest
+/// outlines, where each shape has the same weight. shapes_local are those of this rank. Collective; the
+/// result is the same on any number of ranks. Throws AgreedError(usage) for an unknown name.
 View agree_on_view(const Comm& comm, const std::vector<DrawnShape>& shapes_local, const ViewChoice& choice);
 
 struct SheetRequest {
@@ -47,10 +48,10 @@ struct SheetRequest {
 /// The file of `kind` in a folder of results: contact_sheet.png for parts, else contact_sheet_KIND.png.
 std::string sheet_file(const std::string& kind);
 
-/// Writes FOLDER/contact_sheet[_KIND].png, of all shapes if there are at most shapes_a_page, else an index of
-/// thumbnails beside FOLDER/sheets/KIND_1.png, ... Returns the files' names on rank 0. shapes_local: of this
-/// rank, ascending by number; shape_count: of all ranks. The same bytes on any number of ranks. Collective;
-/// throws AgreedError.
+/// Writes FOLDER/contact_sheet[_KIND].png. It shows all shapes if there are at most shapes_a_page; else it is
+/// an index of thumbnails beside FOLDER/sheets/KIND_1.png, ... Returns the files' names on rank 0.
+/// shapes_local are those of this rank, ascending by number; shape_count is that of all ranks. The files have
+/// the same bytes on any number of ranks. Collective; throws AgreedError.
 std::vector<std::string> write_sheets(const Comm& comm, const std::string& folder,
                                       const SheetRequest& request,
                                       const std::vector<DrawnShape>& shapes_local, int shape_count);

@@ -1,5 +1,6 @@
 #pragma once
-// The descriptors of a finished run's shapes, computed again, one number per face of the file: for pictures and exports.
+// Computes the descriptors of a finished run's shapes again, as one number per face of the file, for pictures
+// and exports.
 
 #include <vector>
 
@@ -9,9 +10,10 @@
 
 namespace coseg {
 
-/// For each of the rows `chosen` of descriptor_table() (ascending) one number per face of the file: the mean over the pieces
-/// that the face was cut into, weighted by area, of shown_values(). Before any rescaling, in the unit in which the shape has
-/// area 1. With the run's seed and sizes, so the same values as in the run. Serial. Throws Error(input).
+/// For each of the rows `chosen` of descriptor_table() (ascending) one number per face of the file: the mean
+/// of shown_values() over the pieces into which the face was cut, weighted by area. The values are those
+/// before any rescaling, in the unit in which the shape has area 1. They are computed with the run's seed and
+/// sizes, and are therefore the same as in the run. Serial. Throws Error(input).
 std::vector<std::vector<double>> shown_descriptors(const FinishedRun& run, const LabelledMesh& shape,
                                                    const std::vector<int>& chosen);
 

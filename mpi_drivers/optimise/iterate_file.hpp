@@ -1,5 +1,6 @@
 #pragma once
-// The iterate of row scope as files of a state folder, one a rank, that any number of ranks can take up.
+// Keeps the iterate of row scope as files of a state folder, one for each rank. Any number of ranks can
+// continue from them.
 
 #include <optional>
 #include <string>
@@ -19,10 +20,10 @@ struct IterateFile {
 
 std::string iterate_path(const std::string& folder, int generation, BlockRange columns);
 
-/// All of a folder, by generation, newest first, then by column.
+/// All such files of a folder, by generation, newest first, then by column.
 std::vector<IterateFile> iterate_files(const std::string& folder);
 
-/// Those of the paths that are named like one, in the same order.
+/// Those of the paths that are named like such a file, in the same order.
 std::vector<IterateFile> iterate_files_of(const std::vector<std::string>& paths);
 
 /// Whether the files, of one generation and by column, hold the columns 0 .. size without a gap.
@@ -33,7 +34,7 @@ void write_iterate(const std::string& path, const SolveIterate& iterate, int fea
 /// Throws Error(input) for a damaged file.
 SolveIterate read_iterate(const std::string& path);
 
-/// The columns `wanted` of iterates that lie side by side and hold them all.
+/// The columns `wanted` of iterates that hold adjacent columns and together all that are wanted.
 SolveIterate cut_to(const std::vector<SolveIterate>& parts, BlockRange wanted, int features);
 
 }  // namespace coseg

@@ -1,6 +1,6 @@
 #pragma once
-// From features to coefficients: sets up the subspace problem as the options ask for it, solves it, and says
-// how well.
+// Finds coefficients from features: sets up the subspace problem as the options ask for it, solves it, and
+// says how exactly.
 
 #include <cstdint>
 #include <string>
@@ -26,8 +26,8 @@ SubspaceProblem subspace_problem(const Collection& collection, const OptimiseOpt
 /// When its solver stops, and which it is.
 SolveOptions solve_options(const OptimiseOptions& options);
 
-/// checkpoint: see SolveOptions; log: is told of the progress, and may be null. Collective. Throws
-/// AgreedError: usage where --links or --variant do not fit the rest, what solve_variant throws.
+/// For `checkpoint` see SolveOptions. `log` prints the progress and may be null. Collective. Throws
+/// AgreedError: usage where --links or --variant do not fit the other options, and what solve_variant throws.
 Optimisation optimise(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                       const OptimiseOptions& options, SolverCheckpoint* checkpoint = nullptr,
                       StageLog* log = nullptr);

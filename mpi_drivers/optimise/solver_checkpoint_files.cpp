@@ -185,8 +185,8 @@ std::optional<SolveIterate> SolverCheckpointFiles::find_iterate() {
     }
     broadcast(comm_, paths);
     const std::vector<IterateFile> all = iterate_files_of(paths);
-    if (!all.empty())
-        generation_ = all.front().generation;  // also an incomplete one: the next has another name
+    // Also an incomplete one: the next has another name.
+    if (!all.empty()) generation_ = all.front().generation;
     for (std::size_t first = 0; first < all.size();) {
         std::size_t last = first;
         while (last < all.size() && all[last].generation == all[first].generation) ++last;

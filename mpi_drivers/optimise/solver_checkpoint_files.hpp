@@ -1,5 +1,5 @@
 #pragma once
-// The optimiser's finished tiles, or its iterate, in a state folder.
+// Keeps the optimiser's finished tiles, or its iterate, in a state folder.
 
 #include <chrono>
 #include <map>
@@ -21,9 +21,9 @@ namespace coseg {
 /// A hash of all that a tile depends on: the problem, the options that steer the method, and the program.
 ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& options);
 
-/// Tiles are written in runs, DIR/solver/KEY/tiles-BEGIN-END.h5, by whichever rank solved them; a later run
+/// Tiles are written in runs, DIR/solver/KEY/tiles-BEGIN-END.h5, by the rank that solved them. A later run
 /// with any number of ranks reads the files that overlap its columns. Iterates (iterate_file.hpp) are written
-/// there by all ranks, one generation after the other; the one before goes when all files of the next are
+/// there by all ranks, one generation after the other. A generation is removed when all files of the next are
 /// there.
 class SolverCheckpointFiles : public SolverCheckpoint {
   public:
@@ -38,10 +38,10 @@ class SolverCheckpointFiles : public SolverCheckpoint {
     void keep_iterate(const SolveIterate& iterate) override;
     void close(bool stopped) override;
 
-    /// Collective: what went wrong with files, a sentence each, on all ranks.
+    /// A sentence for each file that was damaged, on all ranks. Collective.
     [[nodiscard]] std::vector<std::string> warnings() const { return all_gather_records(comm_, warnings_); }
-    /// Tiles of this rank that need not be solved again, and those that were solved; an iterate counts one on
-    /// rank 0.
+    /// The number of tiles of this rank that were found, and of those that were solved. An iterate counts as
+    /// one on rank 0.
     [[nodiscard]] int found_count() const noexcept { return found_; }
     [[nodiscard]] int kept_count() const noexcept { return kept_; }
 
@@ -75,7 +75,8 @@ class SolverCheckpointFiles : public SolverCheckpoint {
     int kept_ = 0;
 };
 
-/// Tiles side by side, columns [tiles.front().begin, tiles.back().end), in one file. Throws Error(output).
+/// Writes adjacent tiles, columns [tiles.front().begin, tiles.back().end), into one file. Throws
+/// Error(output).
 void write_tiles(const std::string& path, const std::vector<SolvedTile>& tiles, int features);
 /// Throws Error(input) for a damaged file.
 std::vector<SolvedTile> read_tiles(const std::string& path);

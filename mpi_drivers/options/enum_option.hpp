@@ -1,5 +1,5 @@
 #pragma once
-// Options whose value is an enumerator, by the table of its names.
+// Adds options whose value is an enumerator, by the table of its names.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace coseg {
 
-/// Accepts the names of E and their aliases, and lists the names in --help and where it refuses.
+/// Accepts the names of E and their aliases, and lists the names in --help and in its refusals.
 template <NamedEnum E>
 CLI::Validator name_of_enum() {
     const std::string set = CLI::detail::generate_set(names_of<E>());
@@ -25,7 +25,7 @@ CLI::Option* add_enum_option(CLI::App& app, const std::string& name, E& value, c
         ->default_str(to_string(value));
 }
 
-/// Several, with commas between them.
+/// Adds an option that takes several names with commas between them.
 template <NamedEnum E>
 CLI::Option* add_enum_list_option(CLI::App& app, const std::string& name, std::vector<E>& values,
                                   const std::string& help) {

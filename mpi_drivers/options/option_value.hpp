@@ -12,7 +12,8 @@ namespace coseg {
 /// The first stage of a run whose outcome changes with an option; all later ones change with it. The order is
 /// that of the stages.
 enum class Affects {
-    /// Where things are, what is said, when a run ends: nothing that a state folder keeps depends on it.
+    /// Options that say where things are, what is printed and when a run ends. Nothing that a state folder
+    /// keeps depends on them.
     nothing,
     describe,  ///< the descriptions of meshes
     features,  ///< the features of patches
@@ -35,8 +36,8 @@ struct OptionValue {
     Affects affects = Affects::nothing;
 };
 
-/// KEY=VALUE, one a line, of the options that affect a stage up to `last`: what a state folder's key of that
-/// stage's outcome is made from.
+/// The options that affect a stage up to `last`, as lines of KEY=VALUE. The key of that stage's outcome in a
+/// state folder is made from this text.
 std::string option_text(const std::vector<OptionValue>& values, Affects last);
 
 }  // namespace coseg

@@ -14,8 +14,8 @@
 namespace coseg {
 
 enum class OptionSet {
-    run,       ///< all
-    describe,  ///< those of `coseg describe`: --state is required, what concerns results is left out
+    run,       ///< all options
+    describe,  ///< the options of `coseg describe`: --state is required, and those of results are left out
 };
 
 /// Adds every option of the set to `app` and remembers how to print its resolved value. `options` must

@@ -1,5 +1,5 @@
 #pragma once
-// What `coseg run` is asked to do: the options of its stages, and the presets.
+// The options of `coseg run`: those of its stages, and the presets.
 
 #include <cstdint>
 #include <string>
@@ -10,8 +10,8 @@
 namespace coseg {
 
 struct RunOptions {
-    std::string preset =
-        "default";  ///< for the report alone: what it stands for is in the options of the stages
+    /// The name for the report alone. The values that it means are in the options of the stages.
+    std::string preset = "default";
     DescriptionOptions description;
     FeatureOptions features;
     OptimiseOptions optimise;
@@ -20,11 +20,11 @@ struct RunOptions {
     ProcessOptions process;
 };
 
-/// Throws AgreedError(usage) where options cannot be joined. The same on every rank.
+/// Throws AgreedError(usage) where options exclude each other. The options are the same on every rank.
 void refuse_contradictions(const RunOptions& options);
 
-/// What labels new shapes like those of a run: how they are described and labelled is the run's, the rest
-/// `own`.
+/// The options with which new shapes are labelled like those of a run: those of describing and labelling are
+/// the run's, and the others are `own`.
 RunOptions options_of_assignment(const RunOptions& run, const RunOptions& own);
 
 /// Gives every stage that draws at random the same seed.

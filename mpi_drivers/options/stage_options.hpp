@@ -1,5 +1,5 @@
 #pragma once
-// What each stage of a run is asked to do. A function takes the options of its own stage, and no others.
+// The options of each stage of a run. A function takes the options of its own stage, and no others.
 
 #include <array>
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace coseg {
 
 /// Whether a mesh gets even triangles before it is described.
 enum class RemeshMode {
-    automatic,  ///< where its own are too long for patches
+    automatic,  ///< where its own triangles are too long for patches
     always,
     never,
 };
@@ -52,7 +52,7 @@ struct DescriptionOptions {
     }
 };
 
-/// Between which values the bins of a scalar feature lie.
+/// The range of values over which the bins of a scalar feature lie.
 enum class BinRanges {
     adapted,  ///< curvature in bins of equal mass, the others rescaled per mesh
     global,   ///< equal widths over all meshes
@@ -61,7 +61,7 @@ constexpr std::array<EnumName<BinRanges>, 2> enum_names(BinRanges /*type*/) {
     return {{{BinRanges::adapted, "adapted"}, {BinRanges::global, "global"}}};
 }
 
-/// From descriptors of faces to features of patches.
+/// Options of the stage that makes features of patches from descriptors of faces.
 struct FeatureOptions {
     std::uint64_t seed = 1;
     int bins = 100;     ///< of a histogram; words of a set of shape contexts
@@ -69,11 +69,11 @@ struct FeatureOptions {
     HistogramScaling histogram = HistogramScaling::square_root;
     BinRanges ranges = BinRanges::adapted;
     std::vector<double> weights = default_descriptor_weights();  ///< of each row of descriptor_table()
-    std::string face_features;         ///< folder of what the user gives for every face; "": none
-    double face_feature_weight = 1.0;  ///< of these
+    std::string face_features;         ///< folder of the numbers that the user gives for every face; "": none
+    double face_feature_weight = 1.0;  ///< weight of these numbers
 };
 
-/// In how many other meshes a patch may have matches, in mesh scope.
+/// The number of other meshes in which a patch may have matches, in mesh scope.
 struct LinkChoice {
     enum class Rule {
         automatic,
@@ -87,7 +87,7 @@ struct LinkChoice {
 std::optional<LinkChoice> parsed_links(std::string_view text);
 std::string to_string(const LinkChoice& links);
 
-/// From features to coefficients.
+/// Options of the stage that finds coefficients from features.
 struct OptimiseOptions {
     std::uint64_t seed = 1;  ///< of the sample of links
     SubspaceVariant variant = SubspaceVariant::multi_feature;
@@ -103,7 +103,7 @@ struct OptimiseOptions {
     double max_seconds = 3600.0;
 };
 
-/// How the patches become parts.
+/// The method by which patches become parts.
 enum class PartitionMethod {
     spectral,   ///< normalised cut of the coefficients' affinity
     diffusion,  ///< clusters of the descriptors alone, in a diffusion map
@@ -112,7 +112,7 @@ constexpr std::array<EnumName<PartitionMethod>, 2> enum_names(PartitionMethod /*
     return {{{PartitionMethod::spectral, "spectral"}, {PartitionMethod::diffusion, "diffusion"}}};
 }
 
-/// From coefficients to the part of every patch.
+/// Options of the stage that finds the part of every patch from coefficients.
 struct PartitionOptions {
     std::uint64_t seed = 1;  ///< of subsets, and of the diffusion map's clusters
     int parts = 0;           ///< K
@@ -120,21 +120,21 @@ struct PartitionOptions {
     AffinityForm affinity = AffinityForm::links;
     double drop_below = 0.0;  ///< entries of the affinity below are dropped
     double cut_offset = 0.0;  ///< SpectralOptions::offset
-    double adjacency = 5.0;   ///< against the links between meshes; where `choose` is off
-    double overlap = 1.0;     ///< of over-segmentations, as a share of adjacency
+    double adjacency = 5.0;   ///< weight against the links between meshes, where `choose` is off
+    double overlap = 1.0;     ///< weight of overlaps, as a share of adjacency
     double mesh_balance = 0.3;
     int subsets = 0;          ///< meshes in a subset; 0: the collection is solved whole
     bool segments = false;    ///< a second pass on whole segments
-    bool choose = true;       ///< among several starts
+    bool choose = true;       ///< whether one of several starts is chosen
     bool articulated = true;  ///< starts without adjacency, for shapes of many limbs
     bool places = true;       ///< starts whose links are weighed by where their patches lie
 };
 
-/// How boundaries between parts are moved into creases.
+/// The way in which boundaries between parts are moved into creases.
 enum class RefineMode {
     none,
     fuzzy,  ///< fuzzy cuts (Katz and Tal 2003)
-    held,   ///< what is far from the boundary is held by its part
+    held,   ///< fuzzy cuts in which faces far from the boundary are held by their part
 };
 constexpr std::array<EnumName<RefineMode>, 3> enum_names(RefineMode /*type*/) {
     return {{{RefineMode::none, "none"}, {RefineMode::fuzzy, "fuzzy"}, {RefineMode::held, "held"}}};
@@ -153,7 +153,8 @@ struct OutputOptions {
     ViewChoice view;
 };
 
-/// Where a run's meshes and its kept state are, and what it says: nothing that it computes depends on these.
+/// Options that say where a run's meshes and its kept state are and what the run prints. Nothing that it
+/// computes depends on these.
 struct ProcessOptions {
     std::vector<std::string> inputs;
     bool strict = false;  ///< a mesh that cannot be used ends the run

@@ -1,5 +1,5 @@
 #pragma once
-// The cut's outcome in a state folder.
+// Keeps the outcome of cuts in a state folder.
 
 #include <string>
 #include <vector>
@@ -10,25 +10,25 @@
 
 namespace coseg {
 
-/// What of a run's command line a cut depends on, as one text: the options that affect it or a stage before
-/// it, and petsc_arguments, which follow `--`.
+/// The part of a run's command line on which a cut depends, as one text: the options that affect it or a
+/// stage before it, and petsc_arguments, which follow `--`.
 std::string cut_option_text(const std::vector<OptionValue>& options,
                             const std::vector<std::string>& petsc_arguments);
 
 /// Finished cuts, DIR/cuts/HASH.h5: eigenvalues, terms and score of every start, and the part of every patch.
-/// The hash is of all that a cut depends on - coefficients, relations and areas of the patches, options,
-/// program - so it holds on any number of ranks and for any part of a collection.
+/// The hash is one of all that a cut depends on: coefficients, pairs and areas of the patches, options,
+/// program. It is therefore valid on any number of ranks and for any part of a collection.
 class PartitionCheckpoint {
   public:
     PartitionCheckpoint(const Comm& comm, const RunState& state, std::string options)
         : comm_(comm), state_(state), options_(std::move(options)) {}
 
-    /// As cut_into_parts, from the folder if it is there. Collective; throws what cut_into_parts does,
-    /// AgreedError(output) if the outcome cannot be written, AgreedError(checkpointed) if a rank has been
-    /// asked to end before the cut.
+    /// Does what cut_into_parts does, or takes the outcome from the folder if it is there. Collective; throws
+    /// what cut_into_parts does, AgreedError(output) if the outcome cannot be written,
+    /// AgreedError(checkpointed) if a rank has been asked to end before the cut.
     CutResult cut(const PartitionInput& input, const PartitionOptions& options);
 
-    /// The same on all ranks: cuts that were found, and files that were damaged, a sentence each.
+    /// The number of cuts that were found, and a sentence for each damaged file; the same on all ranks.
     [[nodiscard]] int found_count() const noexcept { return found_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
@@ -40,11 +40,12 @@ class PartitionCheckpoint {
     std::vector<std::string> warnings_;
 };
 
-/// cut_into_parts, through the checkpoint if there is one. Collective; throws as PartitionCheckpoint::cut.
+/// Calls cut_into_parts, through the checkpoint if there is one. Collective; throws as
+/// PartitionCheckpoint::cut.
 CutResult cut_or_found(const Comm& comm, const PartitionInput& input, const PartitionOptions& options,
                        PartitionCheckpoint* checkpoint);
 
-/// A cut as a file. Throws Error(output).
+/// Writes a cut as a file. Throws Error(output).
 void write_cut(const std::string& path, const CutResult& cut);
 /// Throws Error(input) for a damaged file.
 CutResult read_cut(const std::string& path);

@@ -65,8 +65,8 @@ Partitioned partition_stage(const Comm& comm, const Collection& collection, Patc
     if (collection.meshes.size() == 1)
         log.warn("one mesh alone: it is cut by its own features, with nothing to agree with");
     if (!task.partition.segments) return first_pass(comm, collection, std::move(features), task, log);
-    Partitioned done =
-        first_pass(comm, collection, features, task, log);  // the second pass asks for them again
+    // The second pass asks for them again.
+    Partitioned done = first_pass(comm, collection, features, task, log);
     log.begin("segments");
     done.cut = partition_segments(comm, collection, features, done.cut, task);
     log.end("second pass");

@@ -1,6 +1,6 @@
 #pragma once
-// What the solves and cuts of one run have in common, however many there are: of the whole collection, of
-// subsets, of segments.
+// The things that the solves and cuts of one run have in common, whether they are of the whole collection, of
+// subsets or of segments.
 
 #include "mpi_drivers/options/stage_options.hpp"
 #include "mpi_drivers/partition/partition_checkpoint.hpp"

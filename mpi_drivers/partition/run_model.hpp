@@ -1,5 +1,5 @@
 #pragma once
-// DIR/model.h5: what a run keeps of itself so that more shapes can be labelled like its own.
+// DIR/model.h5: what a run keeps so that more shapes can be labelled like its own.
 
 #include <cstdint>
 #include <string>
@@ -17,18 +17,18 @@ inline constexpr const char* model_file = "model.h5";
 inline constexpr const char* model_format = "coseg model";
 inline constexpr int model_version = 2;
 
-/// The patches of the run's meshes, or of a hashed sample of them: as many meshes as a patch of a run is
-/// linked to (solvers/subspace/mesh_links.hpp), so that the file stays small for any collection.
+/// The patches of the run's meshes, or of a hashed sample of them. The sample has as many meshes as a patch
+/// of a run is linked to (solvers/subspace/mesh_links.hpp), so that the file stays small for any collection.
 struct RunModel {
-    RunOptions
-        options;  ///< those on which descriptions, features, penalties and labels depend; defaults elsewhere
+    /// The options on which descriptions, features, penalties and labels depend; defaults elsewhere.
+    RunOptions options;
     std::vector<FeatureBins> bins;            ///< of each feature, in the order of the descriptors
     std::vector<Eigen::MatrixXd> histograms;  ///< as in PatchFeatures, rounded to single precision
     int face_feature_dimensions = 0;      ///< numbers a face that --face-features gave; 0: it was not given
     std::vector<int> mesh_of;             ///< of each patch, 0 .. meshes kept - 1
     std::vector<std::string> mesh_names;  ///< of the meshes kept
     std::vector<int> part_of_patch;
-    bool same_build = true;  ///< written by this build of coseg
+    bool same_build = true;  ///< whether this build of coseg has written it
 };
 
 /// The patches that a model keeps, and how their features were made.
@@ -41,13 +41,13 @@ struct ModelPatches {
 };
 ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed);
 
-/// Writes the model into the folder on rank 0, where alone `patches` is asked for. Collective; throws
+/// Writes the model into the folder on rank 0; only there `patches` is needed. Collective; throws
 /// AgreedError(output).
 void write_run_model(const Comm& comm, const std::string& folder, const Collection& collection,
                      const ModelPatches& patches, const std::vector<int>& part_of_patch,
                      const RunOptions& options);
 
-/// Features that users give must be given of the run's shapes and of the new ones, or of neither. Throws
+/// Features that users give must be given for the run's shapes and for the new ones, or for neither. Throws
 /// AgreedError(usage).
 void refuse_other_face_features(const RunModel& model, const FeatureOptions& own);
 /// Throws AgreedError(input) where the new shapes have another number of them for a face than the run's.

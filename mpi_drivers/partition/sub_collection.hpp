@@ -1,5 +1,5 @@
 #pragma once
-// Some meshes of a collection as a collection of their own, for the stages after the features.
+// Makes a collection of some meshes of another one, for the stages after the features.
 
 #include <vector>
 
@@ -11,11 +11,11 @@ namespace coseg {
 struct PartCollection {
     Collection collection;      ///< without meshes' geometry, graphs and descriptors
     PatchFeatures features;     ///< columns of these meshes' patches
-    std::vector<int> patch_of;  ///< per patch its number in the whole collection
+    std::vector<int> patch_of;  ///< the number of each patch in the whole collection
 };
 
-/// `meshes`: numbers in the collection, ascending. Collective; the same on every rank but for the local
-/// meshes.
+/// `meshes` are numbers in the collection, ascending. The result is the same on every rank except for the
+/// local meshes. Collective.
 PartCollection part_of_collection(const Comm& comm, const Collection& collection,
                                   const PatchFeatures& features, const std::vector<int>& meshes);
 

@@ -1,6 +1,6 @@
 #pragma once
-// A collection optimised and cut in overlapping subsets, whose parts are then reconciled: the paper's device
-// for large collections, to compare with solving it whole.
+// Optimises and cuts a collection in overlapping subsets and reconciles their parts: the paper's device for
+// large collections, to compare with solving it whole.
 
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
@@ -9,7 +9,7 @@
 namespace coseg {
 
 struct SubsetOutcome {
-    /// Objectives and bounds are sums over the subsets, gap, residual and iterations the largest; the
+    /// Objectives and bounds are sums over the subsets; gap, residual and iterations are the largest. The
     /// coefficients of a common mesh's patches are those of the first subset.
     Optimisation optimisation;
     CutResult cut;  ///< of all patches; without starts

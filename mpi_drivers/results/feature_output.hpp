@@ -1,6 +1,6 @@
 #pragma once
-// `coseg run --keep-features`: what the optimiser and the cut were given, as a file that `coseg cluster`
-// reads.
+// For `coseg run --keep-features`: writes what the optimiser and the cut were given as a file that `coseg
+// cluster` reads.
 
 #include <string>
 

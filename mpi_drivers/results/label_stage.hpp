@@ -1,5 +1,5 @@
 #pragma once
-// From parts of patches to one part per input face, on the rank that holds the mesh.
+// Gives every input face a part from the parts of patches, on the rank that holds the mesh.
 
 #include <vector>
 

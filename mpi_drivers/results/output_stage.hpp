@@ -1,5 +1,5 @@
 #pragma once
-// What a run leaves: labels, patches and coloured meshes per shape, and the report.
+// Writes what a run leaves: labels, patches and coloured meshes of each shape, and the report.
 
 #include <optional>
 #include <string>
@@ -17,12 +17,12 @@
 
 namespace coseg {
 
-/// labels/NAME.seg, patches/NAME.seg and ply/NAME.ply of this rank's meshes. Collective; throws
+/// Writes labels/NAME.seg, patches/NAME.seg and ply/NAME.ply of this rank's meshes. Collective; throws
 /// AgreedError(output).
 void write_meshes(const Comm& comm, const std::string& folder, const Collection& collection,
                   const std::vector<MeshLabels>& labels);
 
-/// What came of a run or of an assignment.
+/// The outcome of a run or of an assignment.
 struct RunOutcome {
     const Collection& collection;
     const std::vector<NamedRange>& ranges;  ///< of the features' bins
@@ -34,12 +34,12 @@ struct RunOutcome {
     std::optional<ReportState> state;
 };
 
-/// report.json, by rank 0. Collective; throws AgreedError(output).
+/// Writes report.json on rank 0. Collective; throws AgreedError(output).
 void write_run_report(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
                       const StageLog& log);
 
-/// affinity.png: W permuted by part, finer than in the report; not for an assignment, which has no
-/// coefficients of its own to draw. Collective; throws AgreedError(output).
+/// Writes affinity.png: W permuted by part, finer than in the report. It is not written for an assignment,
+/// which has no coefficients of its own to draw. Collective; throws AgreedError(output).
 void write_affinity_picture(const Comm& comm, const std::string& folder, const RunOutcome& outcome);
 
 }  // namespace coseg

@@ -1,5 +1,5 @@
 #pragma once
-// The contact sheet that a run leaves beside its labels.
+// Draws the contact sheet that a run leaves beside its labels.
 
 #include <string>
 #include <vector>

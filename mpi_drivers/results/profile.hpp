@@ -1,5 +1,5 @@
 #pragma once
-// What --profile adds to a run: where each rank's time went.
+// Writes what --profile adds to a run: where the time of each rank went.
 
 #include <string>
 
@@ -13,9 +13,9 @@ namespace coseg {
 void begin_profile(StageLog& log);
 
 /// Writes `folder`/profile.txt (the table of stages and steps, PETSc's log) and `folder`/trace.json
-/// (io/reports/trace_file.hpp); prints the former to standard error on rank 0, unless the run is quiet or its
-/// log is JSON. begin_profile must stand at the run's beginning. Collective; throws AgreedError(output) if a
-/// file cannot be written.
+/// (io/reports/trace_file.hpp). Prints the former to standard error on rank 0, unless the run is quiet or its
+/// log is JSON. begin_petsc_log and StageLog::keep_trace must be called at the run's beginning. Collective;
+/// throws AgreedError(output) if a file cannot be written.
 void write_profile(const Comm& comm, const std::string& folder, const ProcessOptions& options,
                    const StageLog& log);
 

@@ -1,5 +1,5 @@
 #pragma once
-// report.html from a folder of results.
+// Makes report.html from a folder of results.
 
 #include <string>
 
@@ -11,8 +11,9 @@ namespace coseg {
 
 /// Writes OUT/report.html of the results in input.folder, with accuracies if input.truth is given. Meshes of
 /// many faces are shown coarser, so that the file stays small: report_face_budget triangles in all, or
-/// report_least_faces a shape; of more than report_most_shapes every second, third ... can be turned, and all
-/// are in the table. Every rank reads and packs its share of the shapes. Collective; throws AgreedError.
+/// report_least_faces for a shape. Of more than report_most_shapes shapes every second, third ... can be
+/// turned, and all are in the table. Every rank reads and packs its share of the shapes. Collective; throws
+/// AgreedError.
 inline constexpr int report_face_budget = 800000;
 inline constexpr int report_least_faces = 500;
 inline constexpr int report_most_shapes = 2000;

@@ -1,5 +1,5 @@
 #pragma once
-// The folders of a run: that of its results, and that of its state if one is kept.
+// The folders of a run: the one of its results, and the one of its state if a state is kept.
 
 #include <optional>
 #include <string>
@@ -14,17 +14,18 @@
 
 namespace coseg {
 
-/// The folder that all ranks write into: rank 0 makes it beside DIR and renames it at the end, so that a run
+/// The folder into which all ranks write. Rank 0 makes it beside DIR and renames it at the end, so that a run
 /// that fails or is told to end leaves DIR as it was.
 class ResultFolder {
   public:
-    /// Collective; throws AgreedError(output) if DIR is not empty and `force` is off, or cannot be made.
+    /// Makes the folder. Collective; throws AgreedError(output) if DIR is not empty and `force` is off, or
+    /// cannot be made.
     ResultFolder(const Comm& comm, const std::string& path, bool force);
 
     /// Where files are written until commit.
     [[nodiscard]] const std::string& staging() const noexcept { return staging_; }
 
-    /// Collective; after it DIR holds the result.
+    /// Moves the results to DIR. Collective.
     void commit(const Comm& comm);
 
   private:
@@ -40,14 +41,14 @@ class RunFolders {
 
     /// Where results are written until commit.
     [[nodiscard]] const std::string& results() const noexcept { return results_.staging(); }
-    /// Null where none is kept.
+    /// The state, or null where none is kept.
     [[nodiscard]] const RunState* state() const noexcept { return state_ ? &*state_ : nullptr; }
 
-    /// Where a state is kept: ends the run if a rank has been asked to. kept: what the state holds by now.
-    /// Collective; throws AgreedError(checkpointed).
+    /// Ends the run if a state is kept and a rank has been asked to end. `kept` says what the state holds by
+    /// now. Collective; throws AgreedError(checkpointed).
     void end_if_asked(const Comm& comm, const std::string& kept) const;
 
-    /// After it the folder of results is complete and in its place. Collective; throws AgreedError(output).
+    /// Completes the folder of results and moves it to its place. Collective; throws AgreedError(output).
     void commit(const Comm& comm) { results_.commit(comm); }
 
   private:

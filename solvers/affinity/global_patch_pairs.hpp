@@ -1,6 +1,6 @@
 #pragma once
-// What ties patches of one mesh together, with global patch numbers: meshes in the collection's order, within
-// a mesh its over-segmentations, within one its patches.
+// The pairs of patches of one mesh that touch or overlap, with global patch numbers: by mesh in the
+// collection's order, then by over-segmentation, then by patch.
 
 #include <tuple>
 #include <vector>
@@ -36,9 +36,9 @@ struct GlobalPatchOverlap {
     }
 };
 
-/// All relations on all ranks, patch_a < patch_b, in ascending order whichever rank they came from.
-/// Collective. Throws AgreedError(internal) where a patch number is not in 0 .. patches - 1 or a pair is
-/// given twice.
+/// Gives all pairs to all ranks, with patch_a < patch_b, in ascending order whichever rank they come from.
+/// Collective. Throws AgreedError(internal) where a patch number is not in 0 .. patches-1 or a pair is given
+/// twice.
 std::vector<GlobalPatchNeighbors> gather_patch_pairs(const Comm& comm,
                                                      const std::vector<GlobalPatchNeighbors>& local,
                                                      int patches);

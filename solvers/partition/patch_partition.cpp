@@ -277,7 +277,8 @@ std::vector<LabelledOutcome> run_together(const Comm& comm, const CutInput& inpu
     return in_order(std::move(all));
 }
 
-/// The start to take; gives every outcome its score. Starts with fewer parts than others found are not eligible.
+/// The start to take; gives every outcome its score. Starts with fewer parts than others found are not
+/// eligible.
 std::size_t choose(std::vector<LabelledOutcome>& outcomes, const CutInput& input,
                    const ChoiceWeights& weights) {
     std::vector<PartitionTerms> terms;

@@ -24,7 +24,8 @@ const double* column_of(const FeatureStack& stack, int i) {
 /// At most so many features are done at a time, so that their sums stay in registers.
 constexpr std::size_t most_features_at_a_time = 8;
 
-/// product = (stored Gram matrices) weights for the features first .. first + width of the `features` that a pair has.
+/// product = (stored Gram matrices) weights for the features first .. first + width of the `features` that a
+/// pair has.
 using ApplyGram = void (*)(const RowScopeColumn& fit, std::size_t features, std::size_t first,
                            const double* weights, double* product);
 

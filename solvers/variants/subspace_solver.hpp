@@ -7,9 +7,9 @@
 
 namespace coseg {
 
-/// Solves the problem to `options.gap`. The problem must be the same on every rank; the answer has the same
-/// bits on any number of ranks unless a time limit cuts it short. Throws AgreedError(input) for what
-/// validate() refuses and AgreedError(usage) for the dense solver in mesh scope. A limit that is reached is no error here:
+/// Solves the problem to `options.gap`. The problem must be the same on every rank. The answer has the same
+/// bits on any number of ranks unless a time limit ends it early. Throws AgreedError(input) for what
+/// validate() refuses and AgreedError(usage) for an unknown solver. A limit that is reached is no error here:
 /// see `reason`. Collective.
 SolveResult solve_subspace(const Comm& comm, const SubspaceProblem& problem, const SolveOptions& options);
 

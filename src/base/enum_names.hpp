@@ -1,6 +1,5 @@
 #pragma once
-// The names of an enumeration, said once: what the command line accepts, what is printed and what stands in
-// files.
+// Lets the names of an enumeration be said once, for the command line, for messages and for files.
 
 #include <array>
 #include <optional>
@@ -26,7 +25,7 @@ concept NamedEnum = std::is_enum_v<E> && requires {
     enum_names(E{});
 };
 
-/// The name in the table; "" for a value that is none of the enumerators.
+/// The name of an enumerator in the table; "" for a value that is none of the enumerators.
 template <NamedEnum E>
 constexpr std::string_view name_of(E value) {
     for (const EnumName<E>& row : enum_names(value)) {

@@ -1,5 +1,5 @@
 #pragma once
-// One mesh as its descriptors see it, with what several of them share.
+// One mesh for its descriptors, with the parts that several of them share.
 
 #include <cstdint>
 #include <functional>
@@ -13,16 +13,16 @@
 
 namespace coseg {
 
-/// What is made once for all descriptors of a mesh that ask for it, in the order of the work.
+/// The parts that are made once for all descriptors of a mesh that ask for them, in the order of the work.
 enum class SharedPart { none, geodesics, spectrum };
 
-/// Told the name of a step of the work when that step ends.
+/// Called with the name of a step of the work when that step ends.
 using StepEnd = std::function<void(const char* step)>;
 
 /// References to one working mesh of area 1, which must outlive this, and its shared parts.
 class DescriptorContext {
   public:
-    /// samples, seed: as of geodesic_table.
+    /// `samples` and `seed` are those of geodesic_table.
     DescriptorContext(const TriMesh& mesh, const FaceGeometry& geometry, const DualGraph& graph, int samples,
                       std::uint64_t seed, StepEnd step_end);
 

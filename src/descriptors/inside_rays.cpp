@@ -48,8 +48,8 @@ void keep_exits(const RTCFilterFunctionNArguments* arguments) {
 
 bool has_hit(const RTCRayHit8& batch, unsigned i) { return batch.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
 
-/// Leaves in `mask` the rays whose nearest face is no exit, ready to be cast again as far as one may count; false if
-/// there are none.
+/// Leaves in `mask` the rays whose nearest face is no exit, ready to be cast again as far as one may count;
+/// false if there are none.
 bool leave_undecided(RTCRayHit8& batch, PacketMask& mask) {
     auto* ray = reinterpret_cast<RTCRayN*>(&batch.ray);
     auto* hit = reinterpret_cast<RTCHitN*>(&batch.hit);
@@ -108,8 +108,8 @@ void InsideRays::cast(const Eigen::Vector3d& origin, const Eigen::Matrix3Xd& dir
         rtcInitIntersectContext(&context.embree);
         context.entry.fill(std::numeric_limits<float>::infinity());
         rtcIntersect8(mask.data(), scene_.get(), &context.embree, &batch);
-        // Almost every ray leaves by the first face it meets; calling the filter for all of them takes as long as a
-        // third of the traversal.
+        // Almost every ray leaves by the first face it meets; calling the filter for all of them takes as
+        // long as a third of the traversal.
         if (leave_undecided(batch, mask)) {
             context.embree.filter = keep_exits;
             rtcIntersect8(mask.data(), scene_.get(), &context.embree, &batch);

@@ -32,8 +32,8 @@ constexpr double group_width = 1e-3;
                                         "; leave wave_kernel_signature out of --feature-weights");
 }
 
-/// L with the springs between components. A vertex of no face gets a stiff spring to the ground, which takes it out of the
-/// lowest eigenfunctions.
+/// L with the springs between components. A vertex of no face gets a stiff spring to the ground, which takes
+/// it out of the lowest eigenfunctions.
 SparseMatrix joined_laplacian(const TriMesh& mesh, const DualGraph& graph) {
     SparseMatrix laplacian = cotangent_laplacian(mesh);
     std::vector<Eigen::Triplet<double>> springs;
@@ -137,9 +137,9 @@ LaplacianSpectrum merged(const LaplacianSpectrum& a, const LaplacianSpectrum& b)
     return both;
 }
 
-/// At least the `count` lowest, ascending, the constant one first; eigenvectors of S. A search from one vector sees of equal eigenvalues
-/// only one copy but for rounding, and may miss others. So it is repeated beside what was found, until it finds nothing
-/// below the last of these.
+/// At least the `count` lowest, ascending, the constant one first; eigenvectors of S. A search from one
+/// vector sees of equal eigenvalues only one copy but for rounding, and may miss others. So it is repeated
+/// beside what was found, until it finds nothing below the last of these.
 LaplacianSpectrum lowest_with_copies(const TriMesh& mesh, const SparseMatrix& matrix, Eigen::Index count,
                                      double shift) {
     constexpr Eigen::Index more = 6;
@@ -161,8 +161,8 @@ LaplacianSpectrum all_of(const SparseMatrix& matrix) {
     return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-/// How many of the eigenvalues after the first to keep: at most `pairs`, and no part of a group unless the group is most of
-/// them.
+/// How many of the eigenvalues after the first to keep: at most `pairs`, and no part of a group unless the
+/// group is most of them.
 Eigen::Index kept_pairs(const Eigen::VectorXd& eigenvalues, Eigen::Index pairs) {
     const Eigen::Index last = std::min(pairs, eigenvalues.size() - 1);
     for (Eigen::Index kept = last; kept >= last - last / 10 && kept + 1 < eigenvalues.size(); --kept) {

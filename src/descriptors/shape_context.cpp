@@ -56,7 +56,8 @@ std::array<float, angle_edges> cosine_thresholds() {
     return thresholds;
 }
 
-/// Of the vectors c_k - c_i: length, and cosine times length against the face's and against the samples' inward normal.
+/// Of the vectors c_k - c_i: length, and cosine times length against the face's and against the samples'
+/// inward normal.
 struct Projections {
     explicit Projections(Eigen::Index samples) : length(samples), on_face(samples), on_sample(samples) {}
     Eigen::VectorXf length;
@@ -114,8 +115,8 @@ COSEG_VECTOR_CLONES void add_angle_bins(const Thresholds& thresholds, const floa
 /// Per sample its bin against the face's normal, and against its own.
 using BinPair = std::array<Eigen::VectorXi, 2>;
 
-/// Writes `scale` times the samples' weight in each bin, of one kind after the other. Both are added up in one loop: the
-/// additions to one bin wait for each other, often those to the next one.
+/// Writes `scale` times the samples' weight in each bin, of one kind after the other. Both are added up in
+/// one loop: the additions to one bin wait for each other, often those to the next one.
 void write_contexts(const BinPair& bin, const Eigen::VectorXd& weight, ShapeContextNormal normal, float scale,
                     float* context) {
     std::array<std::array<double, shape_context_bins>, 2> mass{};

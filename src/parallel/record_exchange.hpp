@@ -1,5 +1,5 @@
 #pragma once
-// Records, texts and all else that a field may be, between ranks.
+// Exchanges records, texts and everything else that a field may be between ranks.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace coseg {
 
-/// The root's value on all ranks; elsewhere what was there is lost. Collective.
+/// Gives the root's value to all ranks; the values of others are lost. Collective.
 template <class T>
 void broadcast(const Comm& comm, T& value) {
     std::vector<std::byte> bytes;
@@ -35,13 +35,13 @@ std::vector<T> unpacked_rows(const std::vector<std::byte>& bytes) {
 
 }  // namespace record_exchange
 
-/// Records of all ranks in the order of ranks, on all ranks. Collective.
+/// The records of all ranks, in the order of ranks, on all ranks. Collective.
 template <class T>
 std::vector<T> all_gather_records(const Comm& comm, const std::vector<T>& local) {
     return record_exchange::unpacked_rows<T>(all_gather_bytes(comm, record_exchange::packed_rows(local)));
 }
 
-/// The same on the root alone; elsewhere nothing. Collective.
+/// The same on the root alone; on other ranks the result is empty. Collective.
 template <class T>
 std::vector<T> gather_records(const Comm& comm, const std::vector<T>& local) {
     return record_exchange::unpacked_rows<T>(gather_bytes(comm, record_exchange::packed_rows(local)));

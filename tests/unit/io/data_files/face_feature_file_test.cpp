@@ -96,11 +96,13 @@ TEST(FaceFeatureFile, IsFoundByTheNameOfTheMesh) {
     const std::string path = folder.file("chair.npy", npy(header("<f4", "False", "(3, 2)"), six));
     EXPECT_EQ(face_feature_path(folder.path(""), "chair"), path);
     EXPECT_EQ(read_face_features(path, 3).rows(), 2);
-    EXPECT_NE(error_of([&] { face_feature_path(folder.path(""), "table"); }).sentence.find("every mesh needs one"),
-              std::string::npos);
+    EXPECT_NE(
+        error_of([&] { face_feature_path(folder.path(""), "table"); }).sentence.find("every mesh needs one"),
+        std::string::npos);
     folder.file("chair.h5", "");
-    EXPECT_NE(error_of([&] { face_feature_path(folder.path(""), "chair"); }).sentence.find("keep one of them"),
-              std::string::npos);
+    EXPECT_NE(
+        error_of([&] { face_feature_path(folder.path(""), "chair"); }).sentence.find("keep one of them"),
+        std::string::npos);
 }
 
 TEST(FaceFeatureFile, MayBeHdf5) {
@@ -117,8 +119,9 @@ TEST(FaceFeatureFile, MayBeHdf5) {
     Hdf5Writer empty(folder.path("b.h5"), "nothing", 1);
     empty.write("other", six);
     empty.commit();
-    EXPECT_NE(error_of([&] { read_face_features(folder.path("b.h5"), 3); }).sentence.find("no dataset 'features'"),
-              std::string::npos);
+    EXPECT_NE(
+        error_of([&] { read_face_features(folder.path("b.h5"), 3); }).sentence.find("no dataset 'features'"),
+        std::string::npos);
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ TEST(LaplacianSpectrum, OfTwoComponentsHasOneConstantAndASlowSwingBetweenThem) {
     far.vertices.row(0).array() += 3.0;
     const TriMesh mesh = test::disjoint_union(test::sphere(3), far);
     const LaplacianSpectrum spectrum = spectrum_of(mesh, 40);
-    // The lowest takes opposite signs on the two; then those of a sphere, twice each, shifted a little by the spring.
+    // The lowest takes opposite signs on the two; then those of a sphere, twice each, shifted a little by the
+    // spring.
     EXPECT_GT(spectrum.eigenvalues[0], 0.01);
     EXPECT_LT(spectrum.eigenvalues[0], 0.5);
     const Eigen::Index half = mesh.vertex_count() / 2;
