@@ -417,10 +417,6 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
     return texts;
 }
 
-bool Hdf5Reader::has_attribute(const std::string& name) const {
-    return H5Aexists(handles_->file.id(), name.c_str()) > 0;
-}
-
 std::int64_t Hdf5Reader::integer(const std::string& name) const {
     const Handle attribute = handles_->attribute(path_, name);
     std::int64_t value = 0;

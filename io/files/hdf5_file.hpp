@@ -96,7 +96,6 @@ class Hdf5Reader {
     [[nodiscard]] Eigen::MatrixXd read_matrix(const std::string& name) const;
     [[nodiscard]] std::vector<std::string> read_texts(const std::string& name) const;
 
-    [[nodiscard]] bool has_attribute(const std::string& name) const;
     [[nodiscard]] std::int64_t integer(const std::string& name) const;
     [[nodiscard]] double number(const std::string& name) const;
     [[nodiscard]] std::string text(const std::string& name) const;

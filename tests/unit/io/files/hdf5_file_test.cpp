@@ -58,8 +58,6 @@ TEST(Hdf5File, ReturnsWhatWasWritten) {
     EXPECT_EQ(file.text("words"), "two words");
     EXPECT_TRUE(file.has("group/deep/doubles"));
     EXPECT_FALSE(file.has("group/shallow/doubles"));
-    EXPECT_TRUE(file.has_attribute("count"));
-    EXPECT_FALSE(file.has_attribute("counts"));
     EXPECT_EQ(file.names("group"), (std::vector<std::string>{"deep", "floats"}));
 }
 
