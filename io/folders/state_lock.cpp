@@ -65,7 +65,7 @@ std::string folder_of(const std::string& file) { return std::filesystem::path(fi
 }  // namespace
 
 StateLock::StateLock(const std::string& file, LockMode mode, LockTiming timing)
-    : file_(file), timing_(timing), mode_(mode) {
+    : file_(file), timing_(timing) {
     descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0) {
         throw Error(ExitCode::output, folder_of(file) + ": the state folder cannot be written (" +

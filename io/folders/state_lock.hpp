@@ -44,7 +44,6 @@ class StateLock {
 
     std::string file_;
     LockTiming timing_;
-    LockMode mode_;
     int descriptor_ = -1;
     std::mutex mutex_;
     std::condition_variable ended_;

@@ -119,6 +119,7 @@ namespace kinds {
 /// Does not compile where the list of R is shorter or longer than R. One case for each number of members: the
 /// language has no other way to count them.
 template <class R>
+// NOLINTNEXTLINE(readability-function-size): a branch for each number of members
 constexpr void refuse_forgotten_member(const R& record) {
     constexpr std::size_t listed = std::tuple_size_v<decltype(R::fields())>;
     static_assert(listed >= 1 && listed <= 20, "a record has 1 to 20 fields: nest records, or add a case");
