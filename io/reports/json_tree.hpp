@@ -28,6 +28,8 @@ class JsonPlace {
     /// Sets the number; null where it is not finite, which JSON cannot express.
     void set(double value) const;
     void set(std::string_view text) const;
+    /// A literal, which would otherwise become a truth value.
+    void set(const char* text) const { set(std::string_view(text)); }
     /// Sets the number or the truth value that the text spells, else the text.
     void set_typed(const std::string& text) const;
 

@@ -41,6 +41,12 @@ TEST(RecordJson, EveryFieldIsSaid) {
     for (const EveryKind& changed : changed_records()) EXPECT_TRUE(seen.insert(json_of(changed)).second);
 }
 
+TEST(RecordJson, ALiteralIsAText) {
+    JsonTree tree;
+    tree.root().member("format").set("coseg report 1");
+    EXPECT_EQ(tree.line(), R"({"format":"coseg report 1"})");
+}
+
 TEST(RecordJson, WhatIsNotThereOrNotFiniteIsNull) {
     EXPECT_EQ(json_of(std::optional<int>{}), "null");
     EXPECT_EQ(json_of(std::vector<double>{std::numeric_limits<double>::infinity()}), "[null]");
