@@ -1,6 +1,6 @@
 #include "io/data_files/face_feature_file.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>

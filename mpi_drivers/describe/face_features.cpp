@@ -1,6 +1,6 @@
 #include "mpi_drivers/describe/face_features.hpp"
 
-#include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>

@@ -117,18 +117,19 @@ std::vector<double> equal_descriptor_weights() {
 }
 
 FaceDescriptors face_descriptors(DescriptorContext& context, const std::vector<int>& chosen) {
-    FaceDescriptors descriptors;
+    FaceDescriptors descriptors(chosen.size());
     SharedPart held = SharedPart::none;
     for (const int row : in_order_of_work(chosen)) {
         const Descriptor& descriptor = descriptor_table()[at(row)];
         if (descriptor.shared != held) context.release();
         held = descriptor.shared;
-        descriptors.push_back({row, descriptor.values(context)});
+        FaceDescriptor& made =
+            descriptors[at(std::lower_bound(chosen.begin(), chosen.end(), row) - chosen.begin())];
+        made.row = row;
+        made.values = descriptor.values(context);
         context.end_step(descriptor.step);
     }
     context.release();
-    std::sort(descriptors.begin(), descriptors.end(),
-              [](const FaceDescriptor& a, const FaceDescriptor& b) { return a.row < b.row; });
     return descriptors;
 }
 
