@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -25,7 +26,7 @@ std::string filter_of(const std::string& name) {
 
 }  // namespace
 
-bool choose_tests_of_file(int argc, char** argv) {
+bool choose_tests_of_file(int& argc, char** argv) {
     for (int i = 1; i + 1 < argc; ++i) {
         if (std::string_view(argv[i]) != "--tests-of") continue;
         const std::string chosen = filter_of(argv[i + 1]);
@@ -34,6 +35,9 @@ bool choose_tests_of_file(int argc, char** argv) {
             return false;
         }
         GTEST_FLAG_SET(filter, chosen);
+        std::copy(argv + i + 2, argv + argc + 1, argv + i);
+        argc -= 2;
+        return true;
     }
     return true;
 }

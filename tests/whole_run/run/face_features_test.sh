@@ -36,13 +36,13 @@ above() { python3 -c 'import sys; sys.exit(not float(sys.argv[1]) > float(sys.ar
 
 "${run[@]}" --out "$work/plain" "$work/set/meshes"
 "${run[@]}" --face-features "$work/noise" --face-feature-weight 0.2 --out "$work/noisy" "$work/set/meshes"
-only=(--feature-weights 0,0,0,0,0)
+only=(--feature-weights "0,0,0,0,0")
 "${run[@]}" "${only[@]}" --face-features "$work/truth" --out "$work/told" "$work/set/meshes"
 "${run[@]}" "${only[@]}" --face-features "$work/vectors" --state "$work/state" --out "$work/words" "$work/set/meshes"
 plain=$(accuracy plain) noisy=$(accuracy noisy) told=$(accuracy told) words=$(accuracy words)
 echo "accuracy: without $plain, noise beside the five $noisy, the truth alone as numbers $told, as vectors $words"
 above "$noisy" "$(python3 -c 'import sys; print(float(sys.argv[1]) - 3)' "$plain")" || fail "noise changes the labels much"
-above "$told" 97 && above "$words" 97 || fail "the truth as a feature does not give its labels"
+if ! above "$told" 97 || ! above "$words" 97; then fail "the truth as a feature does not give its labels"; fi
 python3 - "$work" <<'END' || fail "the report of face features"
 import json, sys
 told, noisy = (json.load(open(sys.argv[1] + "/" + run + "/report.json")) for run in ("told", "noisy"))

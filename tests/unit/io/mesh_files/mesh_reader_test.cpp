@@ -392,8 +392,6 @@ TEST(MeshReader, RealMeshesHaveTheCountsOfTheirHeaders) {
     const std::vector<std::string> meshes = test::real_meshes();
     if (meshes.empty()) GTEST_SKIP() << "no real meshes; set COSEG_DATA";
     for (std::size_t i = 0; i < meshes.size(); i += 5) {
-        // Kept as they circulate, some with text behind the last face, which is refused.
-        if (meshes[i].find("/as_downloaded/") != std::string::npos) continue;
         std::ifstream file(meshes[i]);
         std::string magic;
         int vertices = 0;
