@@ -5,9 +5,6 @@ set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
-# mpirun kills ranks a second after it has told them to end; on a busy machine they need more to tidy up.
-export OMPI_MCA_odls_base_sigkill_timeout=10
-
 mkdir "$work/good" "$work/empty" "$work/one"
 peanut "$work/good/a.off" 0.5
 peanut "$work/good/b.off" 0.6
