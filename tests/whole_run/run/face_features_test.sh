@@ -61,10 +61,10 @@ cp "$work"/set/meshes/table_0000.off "$work/new"
 assign=("$COSEG" assign --quiet --no-html --no-sheet)
 "${assign[@]}" --to "$work/words" --face-features "$work/vectors" --out "$work/assigned" "$work/new"
 [[ -f $work/assigned/labels/table_0000.seg ]] || fail "coseg assign with face features"
-refuses "assign without them" 2 "was made with --face-features" "${assign[@]}" --to "$work/words" --out "$work/x" "$work/new"
-refuses "assign with them only" 2 "was made without --face-features" \
+refuses "assign without them" 2 "the run was made with it" "${assign[@]}" --to "$work/words" --out "$work/x" "$work/new"
+refuses "assign with them only" 2 "the run was made without it" \
     "${assign[@]}" --to "$work/plain" --face-features "$work/vectors" --out "$work/x" "$work/new"
-refuses "assign with others" 3 "1 numbers a face, but" \
+refuses "assign with others" 3 " a face, but the run was made with" \
     "${assign[@]}" --to "$work/words" --face-features "$work/truth" --out "$work/x" "$work/new"
 
 refuses "describe" 2 "give it to coseg run" "$COSEG" describe --state "$work/state" --face-features "$work/truth" "$work/set/meshes"
