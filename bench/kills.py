@@ -13,7 +13,7 @@ the ways to die in turn, so that each has its share; the moments are random. The
 they meet depend on the machine.
 
 Afterwards everything in the folder of results must have the bytes of the run left alone, but for what tells of the run itself
-(times, ranks, memory and state in report.json, and the copy of that in report.html); all files of the state folder must be
+(times, ranks, memory, state and what was reused in report.json, and the copy of that in report.html); all files of the state folder must be
 whole; no process may be left, no partial folder, no lock that is held. A run that is ended must be gone within 30 s, with
 code 75 or 0 after SIGUSR1 and after SIGTERM to a rank, once all processes are loaded. The exit code is 1 if a round fails.
 """
@@ -41,7 +41,7 @@ WAYS = ("KILL rank", "KILL all", "TERM", "USR1", "TERM rank")
 END_SECONDS = 30
 LIMIT_SECONDS = 300
 OF_THE_RUN = ("options", "ranks", "seconds", "peak_memory_max_mib", "peak_memory_sum_mib", "stages", "state")
-OF_A_MESH = ("rank", "seconds")
+OF_A_MESH = ("rank", "seconds", "reused")
 
 
 class Failed(Exception):
