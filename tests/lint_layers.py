@@ -7,7 +7,8 @@ usage: lint_layers.py SOURCE_DIR      prints each violation as FILE:LINE: senten
 import os
 import re
 import sys
-import tempfile
+
+import lint_self_test
 
 # The layers whose headers each layer may include.
 MAY_INCLUDE = {
@@ -212,23 +213,10 @@ BROKEN_FILES = (
 )
 
 
-def found_in(tree):
-    with tempfile.TemporaryDirectory() as root:
-        for path, text in tree.items():
-            os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
-            with open(os.path.join(root, path), "w", encoding="utf-8") as file:
-                file.write(text)
-        return list(violations(root))
-
-
 def self_test():
-    wrong = [f"a clean tree is refused: {v}" for v in found_in(CLEAN_TREE)]
-    for path, text, sentence in BROKEN_FILES:
-        found = found_in({**CLEAN_TREE, path: text})
-        if len(found) != 1 or not found[0].startswith(path + ":") or sentence not in found[0]:
-            wrong.append(f"{path} with {text!r} must give one '{sentence}', gave {found}")
+    wrong = lint_self_test.wrong_answers(CLEAN_TREE, BROKEN_FILES, violations)
     many = {f"src/base/unit_{k}.cpp": "" for k in range(MOST_UNITS + 1)}
-    if [f for f in found_in({**CLEAN_TREE, **many}) if "units in one folder" in f] == []:
+    if [f for f in lint_self_test.found_in({**CLEAN_TREE, **many}, violations) if "units in one folder" in f] == []:
         wrong.append(f"{MOST_UNITS + 1} units in one folder must be refused")
     if cycles({"a": ("b",), "b": ("c",), "c": ("b",)}) != ["b", "c"]:
         wrong.append("a cycle of rooms must be found")

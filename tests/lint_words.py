@@ -9,7 +9,8 @@ import glob
 import os
 import re
 import sys
-import tempfile
+
+import lint_self_test
 
 CODE_FOLDERS = ("src", "io", "solvers", "mpi_drivers", "tests", "bench", "examples")
 LONGEST_COMMENT = 110
@@ -110,22 +111,8 @@ BROKEN_FILES = (
 )
 
 
-def found_in(tree):
-    with tempfile.TemporaryDirectory() as root:
-        for path, text in tree.items():
-            os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
-            with open(os.path.join(root, path), "w", encoding="utf-8") as file:
-                file.write(text)
-        return list(violations(root))
-
-
 def self_test():
-    wrong = [f"a clean tree is refused: {v}" for v in found_in(CLEAN_TREE)]
-    for path, text, sentence in BROKEN_FILES:
-        found = found_in({**CLEAN_TREE, path: text})
-        if len(found) != 1 or not found[0].startswith(path + ":") or sentence not in found[0]:
-            wrong.append(f"{path} with {text!r} must give one '{sentence}', gave {found}")
-    return wrong
+    return lint_self_test.wrong_answers(CLEAN_TREE, BROKEN_FILES, violations)
 
 
 if __name__ == "__main__":
