@@ -391,7 +391,7 @@ void RunOptionTable::add_partition() {
 void RunOptionTable::add_choice() {
     PartitionOptions& partition = options_.partition;
     add_switch({"choose", Affects::cut, partition_group,
-                "Try several adjacency weights and cluster numbers, choose without labels"},
+                "Try several adjacency weights and cluster numbers, merge and choose without labels"},
                partition.choose);
     add({"subsets", Affects::cut, partition_group,
          "Solve overlapping subsets of so many shapes, a third of them common to all, and reconcile their "
@@ -410,9 +410,6 @@ void RunOptionTable::add_choice() {
          "Boundaries between parts moved into creases by fuzzy cuts in a strip of 10 triangles: none, fuzzy "
          "(Katz and Tal 2003), or held (what is far from the boundary is held by its part)"},
         options_.output.refine);
-    add_switch({"articulated", Affects::cut, partition_group,
-                "With --choose: cuts without adjacency among those tried, for shapes of many limbs"},
-               partition.articulated);
     add_switch({"places", Affects::cut, partition_group,
                 "With --choose: cuts with links weighed by where their patches lie among those tried, for "
                 "shapes that stand alike"},

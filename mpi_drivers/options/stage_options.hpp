@@ -123,11 +123,10 @@ struct PartitionOptions {
     double adjacency = 5.0;   ///< weight against the links between meshes, where `choose` is off
     double overlap = 1.0;     ///< weight of overlaps, as a share of adjacency
     double mesh_balance = 0.3;
-    int subsets = 0;          ///< meshes in a subset; 0: the collection is solved whole
-    bool segments = false;    ///< a second pass on whole segments
-    bool choose = true;       ///< whether one of several starts is chosen
-    bool articulated = true;  ///< starts without adjacency, for shapes of many limbs
-    bool places = true;       ///< starts whose links are weighed by where their patches lie
+    int subsets = 0;        ///< meshes in a subset; 0: the collection is solved whole
+    bool segments = false;  ///< a second pass on whole segments
+    bool choose = true;     ///< whether one of several starts is chosen
+    bool places = true;     ///< starts whose links are weighed by where their patches lie
 };
 
 /// The way in which boundaries between parts are moved into creases.

@@ -53,7 +53,6 @@ CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions
     cut.spectral.mesh_balance = options.mesh_balance;
     if (options.choose) {
         cut.starts = pooled_starts(options.parts);
-        if (options.articulated) append(cut.starts, articulated_starts(options.parts));
         if (looks_at_positions(positions, options)) append(cut.starts, pooled_starts(options.parts, true));
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
@@ -75,7 +74,7 @@ std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features,
                 {features.histograms[h].cast<float>(), {.pooled = pooled, .per_mesh = per_mesh}});
     }
     if (looks_at_positions(features.positions, options))
-        descriptors.push_back({features.positions.cast<float>(), {.pooled = 1.0, .per_mesh = 0.0}});
+        descriptors.push_back({features.positions.cast<float>(), {.pooled = 7.0, .per_mesh = 0.0}});
     return descriptors;
 }
 

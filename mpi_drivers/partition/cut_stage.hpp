@@ -4,7 +4,6 @@
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/stage_options.hpp"
-#include "solvers/partition/partition_choice.hpp"
 #include "solvers/partition/patch_partition.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"

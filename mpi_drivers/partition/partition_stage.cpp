@@ -5,7 +5,9 @@
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "mpi_drivers/partition/segment_stage.hpp"
 #include "mpi_drivers/partition/subset_stage.hpp"
+#include "solvers/partition/part_shares.hpp"
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/base/text.hpp"
 
 namespace coseg {
@@ -14,6 +16,25 @@ namespace {
 
 std::string with_unit(std::int64_t count, const std::string& one, const std::string& many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// Says which part is hardly one, and what to do about it.
+void warn_of_degenerate_parts(const CutResult& cut, int parts, int meshes, const StageLog& log) {
+    if (cut.starts.empty()) return;
+    const StartOutcome& chosen = cut.starts[at(cut.chosen)];
+    if (chosen.parts_found < parts) {
+        log.warn(std::to_string(parts) + " parts are asked for, but " + std::to_string(chosen.parts_found) +
+                 " were found; ask for fewer parts, or for more patches with --patches");
+    }
+    if (!chosen.degenerate) return;
+    for (int p = 0; p < chosen.parts_found; ++p) {
+        const int in_meshes = cut.meshes_with_part[at(p)];
+        if (cut.part_share[at(p)] >= least_share && 2 * in_meshes >= meshes) continue;
+        log.warn("part " + std::to_string(p) + " has " + percent(cut.part_share[at(p)], 2) +
+                 " of the area and is in " + std::to_string(in_meshes) + " of " +
+                 with_unit(meshes, "shape", "shapes") + "; no partition into " + std::to_string(parts) +
+                 " parts without such a part was found; try --parts " + std::to_string(parts - 1));
+    }
 }
 
 Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures features,
@@ -29,6 +50,7 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     CutResult cut = cut_or_found(comm, input, task.partition, task.cuts);
     log.end(with_unit(static_cast<std::int64_t>(cut.starts.size()), "start", "starts") + ", " +
             std::to_string(parts) + " parts");
+    warn_of_degenerate_parts(cut, parts, static_cast<int>(collection.meshes.size()), log);
     return {std::move(optimisation), std::move(cut)};
 }
 

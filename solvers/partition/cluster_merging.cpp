@@ -1,9 +1,10 @@
 #include "solvers/partition/cluster_merging.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
-#include <span>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "src/base/index.hpp"
@@ -12,101 +13,190 @@ namespace coseg {
 
 namespace {
 
-double association(double inside, double volume) { return volume > 0.0 ? inside / volume : 0.0; }
+/// Some of the unions made.
+struct Partial {
+    ClusterSums sums;
+    std::vector<int> group;  ///< of each cluster: its row in sums
+    double value = 0.0;
+};
 
-/// What the normalised association loses when a and b become one: the normalised cut rises by 1 less than
-/// this.
-double loss_of_union(const ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
-    const double together =
-        association(c.links(a, a) + c.links(b, b) + 2.0 * c.links(a, b), c.volume(a) + c.volume(b));
-    return association(c.links(a, a), c.volume(a)) + association(c.links(b, b), c.volume(b)) - together;
-}
+struct Union {
+    double value = 0.0;  ///< of all parts, after it
+    std::size_t of = 0;  ///< the partial result
+    int a = 0;           ///< a < b
+    int b = 0;
+};
 
-/// Minus the links between a and b in units of the geometric mean of their volumes.
-double missing_linkage(const ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
-    const double scale = std::sqrt(c.volume(a) * c.volume(b));
-    return scale > 0.0 ? -c.links(a, b) / scale : 0.0;
-}
-
-void unite(ClusterLinks& c, Eigen::Index a, Eigen::Index b) {
-    c.links.row(a) += c.links.row(b).eval();
-    c.links.col(a) += c.links.col(b).eval();
-    c.volume(a) += c.volume(b);
-}
-
-std::pair<int, int> best_union(const ClusterLinks& links, const std::vector<int>& alive, MergeRule rule) {
-    const auto loss_of = rule == MergeRule::linkage ? missing_linkage : loss_of_union;
-    std::pair<int, int> best{alive[0], alive[1]};
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < alive.size(); ++i) {
-        for (std::size_t j = i + 1; j < alive.size(); ++j) {
-            const double loss = loss_of(links, alive[i], alive[j]);
-            if (loss < least) {
-                least = loss;
-                best = {alive[i], alive[j]};
+std::vector<Union> all_unions(const std::vector<Partial>& partials) {
+    std::vector<Union> unions;
+    for (std::size_t p = 0; p < partials.size(); ++p) {
+        const ClusterSums& sums = partials[p].sums;
+        std::vector<double> value;
+        for (int a = 0; a < sums.count(); ++a) value.push_back(value_of_part(sums, std::array{a}));
+        for (int a = 0; a < sums.count(); ++a) {
+            for (int b = a + 1; b < sums.count(); ++b) {
+                const double together = value_of_part(sums, std::array{a, b});
+                unions.push_back({partials[p].value + together - value[at(a)] - value[at(b)], p, a, b});
             }
         }
     }
-    return best;
+    return unions;
 }
 
-}  // namespace
-
-ClusterLinks cluster_links(const Comm& comm, const SparseRows& affinity, const std::vector<int>& labels,
-                           int clusters) {
-    const auto width = at(clusters);
-    std::vector<double> row_links(at(affinity.local_rows()) * width, 0.0);
-    for (std::size_t r = 0; r < at(affinity.local_rows()); ++r) {
-        for (auto k = at(affinity.offsets[r]); k < at(affinity.offsets[r + 1]); ++k) {
-            const int label = labels[at(affinity.columns[k])];
-            row_links[r * width + at(label)] += affinity.values[k];
-        }
-    }
-    if (comm.size() > 1) row_links = all_gather(comm, std::span<const double>(row_links));
-    ClusterLinks result{Eigen::MatrixXd::Zero(clusters, clusters), Eigen::VectorXd::Zero(clusters)};
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        for (std::size_t b = 0; b < width; ++b) {
-            result.links(labels[i], static_cast<Eigen::Index>(b)) += row_links[i * width + b];
-            result.volume(labels[i]) += row_links[i * width + b];
-        }
+/// The same number for clusters of the same group, in the order of clusters.
+std::vector<int> renumbered(const std::vector<int>& group) {
+    std::vector<int> number(group.size(), -1);
+    std::vector<int> result;
+    int next = 0;
+    for (const int g : group) {
+        if (number[at(g)] < 0) number[at(g)] = next++;
+        result.push_back(number[at(g)]);
     }
     return result;
 }
 
-Eigen::MatrixXd area_shares(const std::vector<int>& labels, int clusters,
-                            const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
-    const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
-    Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(clusters, meshes);
-    std::vector<double> mesh_area(at(meshes), 0.0);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        shares(labels[i], mesh_of[i]) += patch_area[i];
-        mesh_area[at(mesh_of[i])] += patch_area[i];
-    }
-    for (int m = 0; m < meshes; ++m) {
-        if (mesh_area[at(m)] > 0.0) shares.col(m) /= mesh_area[at(m)];
-    }
-    return shares;
+std::vector<int> group_after(const Partial& partial, int a, int b) {
+    const int last = partial.sums.count() - 1;
+    std::vector<int> group;
+    for (const int g : partial.group) group.push_back(g == b ? a : (g == last ? b : g));
+    return group;
 }
 
-std::vector<int> merge_clusters(ClusterLinks links, const std::vector<int>& cluster_sizes, int parts,
-                                MergeRule rule) {
-    std::vector<int> root(cluster_sizes.size(), -1);
-    std::vector<int> alive;
-    for (std::size_t c = 0; c < cluster_sizes.size(); ++c) {
-        if (cluster_sizes[c] == 0) continue;
-        root[c] = static_cast<int>(c);
-        alive.push_back(static_cast<int>(c));
+/// One union more in each.
+std::vector<Partial> next_step(const std::vector<Partial>& partials, int beam) {
+    std::vector<Union> unions = all_unions(partials);
+    std::stable_sort(unions.begin(), unions.end(),
+                     [](const Union& x, const Union& y) { return x.value > y.value; });
+    std::set<std::vector<int>> seen;
+    std::vector<Partial> next;
+    for (const Union& u : unions) {
+        if (static_cast<int>(next.size()) == beam) break;
+        std::vector<int> group = group_after(partials[u.of], u.a, u.b);
+        if (!seen.insert(renumbered(group)).second) continue;
+        next.push_back({partials[u.of].sums, std::move(group), u.value});
+        unite(next.back().sums, u.a, u.b);
     }
-    while (static_cast<int>(alive.size()) > parts) {
-        const auto [a, b] = best_union(links, alive, rule);
-        unite(links, a, b);
-        std::replace(root.begin(), root.end(), b, a);
-        std::erase(alive, b);
+    return next;
+}
+
+/// Moves whole clusters between the parts of a finished result.
+class ClusterMoves {
+  public:
+    ClusterMoves(const ClusterSums& clusters, std::vector<int> part, int parts)
+        : clusters_(clusters), part_(std::move(part)), parts_(parts), alone_(part_.size()) {
+        for (int c = 0; c < clusters_.count(); ++c) alone_[at(c)] = value_of_part(clusters_, std::array{c});
     }
-    for (int& r : root) {
-        if (r >= 0) r = static_cast<int>(std::lower_bound(alive.begin(), alive.end(), r) - alive.begin());
+
+    void run() {
+        for (int round = 0; round < most_rounds; ++round) {
+            look();
+            Move best = best_single();
+            const Move exchange = best_exchange();
+            if (exchange.gain > best.gain) best = exchange;
+            if (best.cluster < 0) return;
+            apply(best);
+        }
     }
-    return root;
+    [[nodiscard]] const std::vector<int>& parts() const noexcept { return part_; }
+
+  private:
+    /// Every move gains, so that it ends by itself; this is to be sure of it whatever rounding does.
+    static constexpr int most_rounds = 100;
+    static constexpr double least_gain = 1e-9;
+
+    struct Move {
+        double gain = least_gain;
+        int cluster = -1;  ///< goes
+        int to = -1;       ///< to this part; or this part takes in `other`, whose number the cluster gets
+        int other = -1;
+    };
+
+    [[nodiscard]] std::vector<int> members(int part, int without = -1, int with = -1) const {
+        std::vector<int> result;
+        for (int c = 0; c < clusters_.count(); ++c) {
+            if ((part_[at(c)] == part && c != without) || c == with) result.push_back(c);
+        }
+        return result;
+    }
+
+    void look() {
+        value_.assign(at(parts_), 0.0);
+        for (int p = 0; p < parts_; ++p) value_[at(p)] = value_of_part(clusters_, members(p));
+        left_.assign(part_.size(), -std::numeric_limits<double>::infinity());
+        for (int c = 0; c < clusters_.count(); ++c) {
+            const std::vector<int> rest = members(part_[at(c)], c);
+            if (!rest.empty()) left_[at(c)] = value_of_part(clusters_, rest) - value_[at(part_[at(c)])];
+        }
+    }
+
+    [[nodiscard]] Move best_single() const {
+        Move best;
+        for (int c = 0; c < clusters_.count(); ++c) {
+            for (int p = 0; p < parts_ && left_[at(c)] > -std::numeric_limits<double>::infinity(); ++p) {
+                if (p == part_[at(c)]) continue;
+                const double gain =
+                    left_[at(c)] + value_of_part(clusters_, members(p, -1, c)) - value_[at(p)];
+                if (gain > best.gain) best = {gain, c, p, -1};
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] Move best_exchange() const {
+        Move best;
+        for (int p = 0; p < parts_; ++p) {
+            for (int q = p + 1; q < parts_; ++q) {
+                std::vector<int> both = members(p);
+                for (const int c : members(q)) both.push_back(c);
+                const double united = value_of_part(clusters_, both) - value_[at(p)] - value_[at(q)];
+                for (int c = 0; c < clusters_.count(); ++c) {
+                    if (part_[at(c)] == p || part_[at(c)] == q) continue;
+                    const double gain = united + left_[at(c)] + alone_[at(c)];
+                    if (gain > best.gain) best = {gain, c, p, q};
+                }
+            }
+        }
+        return best;
+    }
+
+    void apply(const Move& move) {
+        if (move.other >= 0) {
+            std::replace(part_.begin(), part_.end(), move.other, move.to);
+            part_[at(move.cluster)] = move.other;
+        } else {
+            part_[at(move.cluster)] = move.to;
+        }
+    }
+
+    const ClusterSums& clusters_;
+    std::vector<int> part_;
+    int parts_;
+    std::vector<double> alone_;  ///< value of each cluster as a part
+    std::vector<double> value_;  ///< of each part
+    std::vector<double>
+        left_;  ///< what a cluster's part gains when it leaves; none from a part of one cluster
+};
+
+}  // namespace
+
+int merging_beam(int clusters) { return clusters < 30 ? 4 : 2; }
+
+std::vector<std::vector<int>> merge_clusters(const ClusterSums& clusters, int parts) {
+    std::vector<int> group(at(clusters.count()));
+    std::iota(group.begin(), group.end(), 0);
+    if (clusters.count() <= parts) return {group};
+    double value = 0.0;
+    for (int c = 0; c < clusters.count(); ++c) value += value_of_part(clusters, std::array{c});
+    std::vector<Partial> partials = {{clusters, group, value}};
+    const int beam = merging_beam(clusters.count());
+    while (partials.front().sums.count() > parts) partials = next_step(partials, beam);
+    std::vector<std::vector<int>> results;
+    for (Partial& partial : partials) {
+        ClusterMoves moves(clusters, std::move(partial.group), parts);
+        moves.run();
+        results.push_back(moves.parts());
+    }
+    return results;
 }
 
 }  // namespace coseg

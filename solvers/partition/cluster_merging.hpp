@@ -1,36 +1,23 @@
 #pragma once
-// Merges clusters until only as many are left as there are parts.
+// Merges clusters until only as many are left as there are parts, guided by the objective of the partition.
 
-#include <Eigen/Core>
 #include <vector>
 
-#include "solvers/affinity/sparse_rows.hpp"
-#include "src/parallel/comm.hpp"
-#include "src/records/start_outcome.hpp"
+#include "solvers/partition/cluster_sums.hpp"
 
 namespace coseg {
 
-/// The links between clusters in an affinity.
-struct ClusterLinks {
-    Eigen::MatrixXd links;   ///< clusters x clusters, symmetric: sum of S_ij over i in a, j in b
-    Eigen::VectorXd volume;  ///< sum of degrees in a cluster: the row sums of links
-};
+/// Several results, each with the part of each cluster, 0 .. parts-1, such that the sum of the parts' values
+/// is large. Pairs are united one after the other, with the best `merging_beam` partial results kept at each
+/// step. Each result then takes the best of two kinds of moves as long as one gains: a cluster goes to
+/// another part; or two parts become one, and one cluster leaves its part to be a new one. There are fewer
+/// parts where there are fewer clusters. Serial; a function of the sums alone.
+///
+/// Deviates: the paper's code cuts into K parts at once. Source: none; the objective is in
+/// partition_objective.hpp.
+std::vector<std::vector<int>> merge_clusters(const ClusterSums& clusters, int parts);
 
-/// Sums the links of the clusters that `labels` describe: 0 .. clusters-1 for each patch, the same on all
-/// ranks. Sums are taken in the order of patches. Collective.
-ClusterLinks cluster_links(const Comm& comm, const SparseRows& affinity, const std::vector<int>& labels,
-                           int clusters);
-
-/// The share of each mesh's area that lies in a cluster: clusters x meshes, each column sums to 1.
-/// `patch_area` and `mesh_of` are per patch, with meshes 0 .. M-1.
-Eigen::MatrixXd area_shares(const std::vector<int>& labels, int clusters,
-                            const std::vector<double>& patch_area, const std::vector<int>& mesh_of);
-
-/// Merges pairs of clusters by the rule, one after the other, until `parts` are left. Of equal pairs the one
-/// with the lowest numbers is taken. Clusters without a patch do not count. Returns the part of each cluster,
-/// 0 .. parts-1 in the order of their lowest clusters, and -1 for an empty cluster. There are fewer parts
-/// where fewer clusters have patches.
-std::vector<int> merge_clusters(ClusterLinks links, const std::vector<int>& cluster_sizes, int parts,
-                                MergeRule rule);
+/// Partial results kept at each step: 4, where there are fewer than 30 clusters, and 2 otherwise.
+int merging_beam(int clusters);
 
 }  // namespace coseg

@@ -8,6 +8,11 @@
 
 #include "solvers/affinity/affinity.hpp"
 #include "solvers/affinity/graph_components.hpp"
+#include "solvers/partition/cluster_merging.hpp"
+#include "solvers/partition/cut_graphs.hpp"
+#include "solvers/partition/part_shares.hpp"
+#include "solvers/partition/partition_objective.hpp"
+#include "solvers/partition/patch_moves.hpp"
 #include "solvers/spectral/normalized_cut.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -17,25 +22,11 @@ namespace coseg {
 
 namespace {
 
-/// The terms of every start's graph, rows as the group that works on a graph owns them.
-struct CutTerms {
-    SparseRows base;
-    PositionFrame frame;
-    double placed_share = 1.0;  ///< total of the base weighed by place over its own
-    SparseRows adjacency;
-    SparseRows overlap;
-    double adjacency_scale = 0.0;
-    double overlap_scale = 0.0;
-    std::vector<GlobalPatchNeighbors> neighbors;
-    std::vector<GlobalPatchOverlap> overlaps;
-    SparseRows within_mesh_affinity;  ///< A' + O', complete: what a patch set aside follows
-};
-
 /// What came of the start of this number.
 struct LabelledOutcome {
     int index = 0;
     StartOutcome outcome;
-    std::vector<int> labels;
+    std::vector<int> labels;          ///< of patches: clusters, then parts
     std::vector<double> eigenvalues;  ///< as in CutResult
     static constexpr auto fields() {
         return std::tuple(
@@ -43,6 +34,9 @@ struct LabelledOutcome {
             field("labels", &LabelledOutcome::labels), field("eigenvalues", &LabelledOutcome::eigenvalues));
     }
 };
+
+/// Partitions that are improved by moves of single patches: those with the best scores.
+constexpr std::size_t finalists = 12;
 
 bool asks_for_positions(const CutOptions& options) {
     return std::any_of(options.starts.begin(), options.starts.end(),
@@ -69,65 +63,6 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
     });
 }
 
-SparseRows base_affinity(const Comm& comm, const CutInput& input, const CutOptions& options,
-                         const std::vector<GlobalPatchNeighbors>& neighbors) {
-    SparseRows base = options.form == AffinityForm::formula_8 ? symmetric_affinity(comm, input.coefficients)
-                                                              : normalized_links(comm, input.coefficients);
-    if (options.minima_rule) apply_minima_rule(base, neighbors);
-    return base;
-}
-
-void find_places(const Comm& comm, const CutInput& input, double base_total, CutTerms& terms) {
-    terms.frame = position_frame(comm, terms.base, *input.positions, input.mesh_of);
-    SparseRows placed = terms.base;
-    weigh_by_position(terms.frame, *input.positions, input.mesh_of, placed);
-    if (base_total > 0.0) terms.placed_share = total(comm, placed) / base_total;
-}
-
-/// `one_rank`: the group that works on a graph is one rank, so every rank holds complete terms.
-CutTerms cut_terms(const Comm& comm, const Comm& self, bool one_rank, const CutInput& input,
-                   const CutOptions& options) {
-    const auto size = static_cast<std::int64_t>(input.mesh_of.size());
-    const BlockRange all{0, size};
-    CutTerms terms;
-    terms.neighbors = gather_patch_pairs(comm, input.neighbors_local, static_cast<int>(size));
-    terms.overlaps = gather_patch_pairs(comm, input.overlaps_local, static_cast<int>(size));
-    const SparseRows adjacency = adjacency_affinity(all, terms.neighbors, input.mesh_of);
-    const SparseRows overlap = overlap_affinity(all, terms.overlaps, size);
-    terms.base = base_affinity(comm, input, options, terms.neighbors);
-    const double base_total = total(comm, terms.base);
-    const double reference = base_total > 0.0 ? base_total : static_cast<double>(size);
-    const double adjacency_total = total(self, adjacency);
-    const double overlap_total = total(self, overlap);
-    terms.adjacency_scale = adjacency_total > 0.0 ? reference / adjacency_total : 0.0;
-    terms.overlap_scale = overlap_total > 0.0 ? reference / overlap_total : 0.0;
-    const WeightedMatrix within_mesh_affinity[] = {{&adjacency, terms.adjacency_scale},
-                                                   {&overlap, terms.overlap_scale}};
-    terms.within_mesh_affinity = weighted_sum(within_mesh_affinity);
-    if (asks_for_positions(options)) find_places(comm, input, base_total, terms);
-    if (one_rank) {
-        terms.base = gather_rows(comm, terms.base);
-        terms.adjacency = adjacency;
-        terms.overlap = overlap;
-    } else {
-        terms.adjacency = adjacency_affinity(terms.base.rows, terms.neighbors, input.mesh_of);
-        terms.overlap = overlap_affinity(terms.base.rows, terms.overlaps, size);
-    }
-    return terms;
-}
-
-SparseRows graph_of(const CutTerms& terms, const CutInput& input, GraphWeights weights, double drop_below) {
-    const double share = weights.placed ? terms.placed_share : 1.0;
-    const WeightedMatrix parts[] = {{&terms.base, 1.0},
-                                    {&terms.adjacency, share * weights.adjacency * terms.adjacency_scale},
-                                    {&terms.overlap, share * weights.overlap * terms.overlap_scale}};
-    SparseRows graph = weighted_sum(parts);
-    // Between meshes the graph is the base.
-    if (weights.placed) weigh_by_position(terms.frame, *input.positions, input.mesh_of, graph);
-    if (drop_below > 0.0) drop_small_entries(graph, drop_below);
-    return graph;
-}
-
 std::vector<int> cluster_sizes(const std::vector<int>& labels, int clusters) {
     std::vector<int> sizes(at(clusters), 0);
     for (const int label : labels) {
@@ -136,76 +71,32 @@ std::vector<int> cluster_sizes(const std::vector<int>& labels, int clusters) {
     return sizes;
 }
 
-/// Everything that the starts of one graph share.
+/// Everything that the clusterings of one graph share.
 struct GraphCut {
-    const Comm& group;
-    const CutInput& input;
-    const CutOptions& options;
-    const CutTerms& terms;
-    const SparseRows& graph;
+    const SparseRows& within_mesh_affinity;
     const SpectralEmbedding& embedding;
+    std::int64_t patches = 0;
 };
 
-/// What starts with the same graph and number of clusters share.
-struct Clustering {
-    int count = 0;
-    std::vector<int> labels;  ///< of every patch, those set aside included
-    std::vector<int> sizes;
-    ClusterLinks links;
-    int set_aside = 0;
-    int unreached = 0;
-};
-
-Clustering clustering_of(const GraphCut& cut, int count) {
-    Clustering result;
-    result.count = count;
-    result.labels = cut_embedding(cut.embedding, count, cut.graph.size);
-    const std::vector<int> sizes = cluster_sizes(result.labels, count);
-    const auto largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-    result.set_aside = static_cast<int>(std::count(result.labels.begin(), result.labels.end(), -1));
-    result.unreached = attach_set_aside(result.labels, cut.terms.within_mesh_affinity, largest);
-    result.sizes = cluster_sizes(result.labels, count);
-    result.links = cluster_links(cut.group, cut.graph, result.labels, count);
-    return result;
-}
-
-int cluster_count(const GraphCut& cut, int index) {
-    const int asked = cut.options.starts[at(index)].clusters;
-    return std::min(asked, static_cast<int>(cut.embedding.eigenvalues.size()));
-}
-
-/// The outcome of a start but for its terms.
-LabelledOutcome run_start(const GraphCut& cut, int index, const Clustering& clusters) {
-    const CutStart& start = cut.options.starts[at(index)];
+/// The clusters of a start, numbered 0, 1, ... without gaps.
+LabelledOutcome clustering(const GraphCut& cut, int index, const CutStart& start) {
+    const int count = std::min(start.clusters, static_cast<int>(cut.embedding.eigenvalues.size()));
     LabelledOutcome result;
     result.index = index;
     result.outcome.start = start;
-    result.outcome.set_aside = clusters.set_aside;
-    result.outcome.unreached = clusters.unreached;
-    result.eigenvalues.assign(cut.embedding.eigenvalues.begin(),
-                              cut.embedding.eigenvalues.begin() + clusters.count);
-    const std::vector<int> part_of_cluster =
-        merge_clusters(clusters.links, clusters.sizes, cut.options.parts, start.merging);
-    for (const int cluster : clusters.labels) result.labels.push_back(part_of_cluster[at(cluster)]);
-    result.outcome.parts_found = 1 + *std::max_element(result.labels.begin(), result.labels.end());
-    // Numbered alike, partitions that are the same have the same terms to the last bit.
-    result.labels =
-        canonical_labels(result.labels, cut.options.parts, cut.input.patch_area, cut.input.mesh_of);
-    return result;
-}
-
-/// Starts of one graph often end in the same partition, whose terms are then found once.
-void add_terms(const GraphCut& cut, const std::vector<LabelledOutcome>& earlier, LabelledOutcome& result) {
-    const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const LabelledOutcome& other) {
-        return other.labels == result.labels;
-    });
-    if (same != earlier.end()) {
-        result.outcome.terms = same->outcome.terms;
-        return;
+    result.labels = cut_embedding(cut.embedding, count, cut.patches);
+    const std::vector<int> sizes = cluster_sizes(result.labels, count);
+    const auto largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+    result.outcome.set_aside = static_cast<int>(std::count(result.labels.begin(), result.labels.end(), -1));
+    result.outcome.unreached = attach_set_aside(result.labels, cut.within_mesh_affinity, largest);
+    result.eigenvalues.assign(cut.embedding.eigenvalues.begin(), cut.embedding.eigenvalues.begin() + count);
+    std::vector<int> number(at(count), -1);
+    int next = 0;
+    for (int& label : result.labels) {
+        if (number[at(label)] < 0) number[at(label)] = next++;
+        label = number[at(label)];
     }
-    const PartitionEvidence evidence{cut.terms.neighbors, cut.terms.overlaps, cut.input.descriptors,
-                                     cut.terms.base,      cut.input.mesh_of,  cut.input.patch_area};
-    result.outcome.terms = partition_terms(cut.group, evidence, result.labels, cut.options.parts);
+    return result;
 }
 
 /// The starts that share a graph, in the order of their first.
@@ -224,78 +115,155 @@ std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& start
     return groups;
 }
 
-std::vector<LabelledOutcome> run_graph(const Comm& group, const CutInput& input, const CutOptions& options,
-                                       const CutTerms& terms, const std::vector<int>& starts) {
-    const CutStart& first = options.starts[at(starts.front())];
-    const SparseRows graph = graph_of(terms, input, first.graph, options.drop_below);
-    int count = options.parts;
-    for (const int k : starts) count = std::max(count, options.starts[at(k)].clusters);
-    const SpectralEmbedding embedding =
-        spectral_embedding(group, graph, options.parts, count, options.spectral, input.mesh_of);
-    const GraphCut cut{group, input, options, terms, graph, embedding};
-    std::vector<LabelledOutcome> outcomes;
-    Clustering clusters;
-    for (const int k : starts) {
-        const int wanted = cluster_count(cut, k);
-        if (clusters.count != wanted) clusters = clustering_of(cut, wanted);
-        LabelledOutcome result = run_start(cut, k, clusters);
-        add_terms(cut, outcomes, result);
-        outcomes.push_back(std::move(result));
-    }
-    return outcomes;
+/// What all steps of one call look at.
+struct Task {
+    const CutInput& input;
+    const CutOptions& options;
+    const GraphInput& graphs;
+    const GraphTerms& terms;
+    const PartitionEvidence& evidence;
+};
+
+/// The clusterings of the starts of one graph. Collective over the group.
+std::vector<LabelledOutcome> clusterings_of_graph(const Comm& group, const Task& task,
+                                                  const std::vector<int>& starts) {
+    const std::vector<CutStart>& all = task.options.starts;
+    const SparseRows graph =
+        graph_of(task.terms, task.graphs, all[at(starts.front())].graph, task.options.drop_below);
+    int count = task.options.parts;
+    for (const int k : starts) count = std::max(count, all[at(k)].clusters);
+    const SpectralEmbedding embedding = spectral_embedding(group, graph, task.options.parts, count,
+                                                           task.options.spectral, task.input.mesh_of);
+    const GraphCut cut{task.terms.within_mesh_affinity, embedding, graph.size};
+    std::vector<LabelledOutcome> clusterings;
+    for (const int k : starts) clusterings.push_back(clustering(cut, k, all[at(k)]));
+    return clusterings;
 }
 
-/// Puts outcomes into the order of the starts.
-std::vector<LabelledOutcome> in_order(std::vector<LabelledOutcome> outcomes) {
-    std::sort(outcomes.begin(), outcomes.end(),
-              [](const LabelledOutcome& a, const LabelledOutcome& b) { return a.index < b.index; });
-    return outcomes;
-}
-
-/// Graphs dealt over the ranks, each cut by one of them. Collective.
-std::vector<LabelledOutcome> run_dealt(const Comm& comm, const Comm& self, const CutInput& input,
-                                       const CutOptions& options, const CutTerms& terms) {
-    const std::vector<std::vector<int>> graphs = starts_by_graph(options.starts);
+/// The clusterings that this rank goes on with. Graphs are dealt over the ranks, each cut by one of them.
+/// Collective.
+std::vector<LabelledOutcome> dealt_clusterings(const Comm& comm, const Task& task) {
+    const Comm self(MPI_COMM_SELF);
+    const std::vector<std::vector<int>> graphs = starts_by_graph(task.options.starts);
     std::vector<LabelledOutcome> mine;
     agree(comm, [&] {
         for (auto q = at(comm.rank()); q < graphs.size(); q += at(comm.size())) {
-            for (LabelledOutcome& r : run_graph(self, input, options, terms, graphs[q])) {
+            for (LabelledOutcome& r : clusterings_of_graph(self, task, graphs[q])) {
                 mine.push_back(std::move(r));
             }
         }
     });
-    return in_order(all_gather_records(comm, mine));
+    return mine;
 }
 
-/// One graph after the other, each cut by all ranks. Collective.
-std::vector<LabelledOutcome> run_together(const Comm& comm, const CutInput& input, const CutOptions& options,
-                                          const CutTerms& terms) {
-    std::vector<LabelledOutcome> all;
-    for (const std::vector<int>& starts : starts_by_graph(options.starts)) {
-        for (LabelledOutcome& r : run_graph(comm, input, options, terms, starts)) all.push_back(std::move(r));
+/// The same where one graph after the other is cut by all ranks.
+std::vector<LabelledOutcome> shared_clusterings(const Comm& comm, const Task& task) {
+    std::vector<LabelledOutcome> mine;
+    for (const std::vector<int>& starts : starts_by_graph(task.options.starts)) {
+        for (LabelledOutcome& r : clusterings_of_graph(comm, task, starts)) {
+            if (r.index % comm.size() == comm.rank()) mine.push_back(std::move(r));
+        }
     }
-    return in_order(std::move(all));
+    return mine;
 }
 
-/// The start to take; gives every outcome its score. Starts with fewer parts than others found are not
-/// eligible.
-std::size_t choose(std::vector<LabelledOutcome>& outcomes, const CutInput& input,
-                   const ChoiceWeights& weights) {
-    std::vector<PartitionTerms> terms;
+/// Numbers the parts, so that partitions that are the same have the same terms to the last bit, and finds
+/// terms and score.
+void describe_outcome(const Task& task, LabelledOutcome& result) {
+    const CutInput& input = task.input;
+    const int parts = task.options.parts;
+    result.labels = canonical_labels(result.labels, parts, input.patch_area, input.mesh_of);
+    StartOutcome& outcome = result.outcome;
+    outcome.parts_found = 1 + *std::max_element(result.labels.begin(), result.labels.end());
+    outcome.degenerate = is_degenerate(area_shares(result.labels, parts, input.patch_area, input.mesh_of));
+    outcome.terms = partition_terms(task.evidence, result.labels, parts);
+    outcome.score = partition_score(outcome.terms, task.options.choice, input.descriptors);
+}
+
+/// Merges the clusters into parts in several ways, of which the one with the best score is taken.
+LabelledOutcome merged(const Task& task, const PartitionObjective& objective,
+                       const LabelledOutcome& clustering) {
+    const int clusters = 1 + *std::max_element(clustering.labels.begin(), clustering.labels.end());
+    const ClusterSums sums = cluster_sums(objective, clustering.labels, clusters);
+    std::optional<LabelledOutcome> best;
+    for (const std::vector<int>& part_of : merge_clusters(sums, task.options.parts)) {
+        LabelledOutcome result = clustering;
+        for (int& label : result.labels) label = part_of[at(label)];
+        describe_outcome(task, result);
+        if (!best || result.outcome.score > best->outcome.score) best = std::move(result);
+    }
+    return std::move(*best);
+}
+
+/// The outcome after moves of single patches, or the same one where these raise the objective but, as it
+/// leaves out a term, not the score.
+LabelledOutcome improved(const Task& task, const PartitionObjective& objective, LabelledOutcome outcome) {
+    MovedPatches moved = move_patches(objective, outcome.labels, task.options.parts);
+    LabelledOutcome after = outcome;
+    after.labels = std::move(moved.labels);
+    after.outcome.moved = moved.moved;
+    describe_outcome(task, after);
+    const bool is_better =
+        after.outcome.score > outcome.outcome.score && after.outcome.degenerate <= outcome.outcome.degenerate;
+    return is_better ? std::move(after) : std::move(outcome);
+}
+
+/// Outcomes with the most parts, none of them degenerate; or, if there are none, the others with the most.
+std::vector<char> eligible_outcomes(const std::vector<LabelledOutcome>& outcomes) {
     int most = 0;
+    for (const LabelledOutcome& r : outcomes) most = std::max(most, r.outcome.parts_found);
+    std::vector<char> eligible;
+    bool any = false;
     for (const LabelledOutcome& r : outcomes) {
-        terms.push_back(r.outcome.terms);
-        most = std::max(most, r.outcome.parts_found);
+        eligible.push_back(r.outcome.parts_found == most && !r.outcome.degenerate ? 1 : 0);
+        any = any || eligible.back() != 0;
     }
-    std::vector<BetweenPartVariance> descriptor_weights;
-    for (const ChoiceDescriptor& d : input.descriptors) descriptor_weights.push_back(d.weight);
-    const std::vector<double> scores = partition_scores(terms, weights, descriptor_weights);
-    std::vector<bool> eligible;
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
-        outcomes[k].outcome.score = scores[k];
-        eligible.push_back(outcomes[k].outcome.parts_found == most);
+    for (std::size_t k = 0; k < outcomes.size() && !any; ++k)
+        eligible[k] = outcomes[k].outcome.parts_found == most ? 1 : 0;
+    return eligible;
+}
+
+/// Numbers of outcomes: the eligible ones first, then by falling score, of equal ones the first.
+std::vector<std::size_t> ranking(const std::vector<LabelledOutcome>& outcomes) {
+    const std::vector<char> eligible = eligible_outcomes(outcomes);
+    std::vector<std::size_t> order(outcomes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        if (eligible[a] != eligible[b]) return eligible[a] > eligible[b];
+        return outcomes[a].outcome.score > outcomes[b].outcome.score;
+    });
+    return order;
+}
+
+/// The different partitions among the best.
+std::vector<std::size_t> best_outcomes(const std::vector<LabelledOutcome>& outcomes) {
+    std::vector<std::size_t> best;
+    for (const std::size_t k : ranking(outcomes)) {
+        const bool is_new = std::none_of(best.begin(), best.end(), [&](std::size_t other) {
+            return outcomes[other].labels == outcomes[k].labels;
+        });
+        if (is_new) best.push_back(k);
+        if (best.size() == finalists) break;
     }
-    return best_partition(terms, scores, eligible, weights);
+    return best;
+}
+
+/// All starts, merged, in their order; the best of them improved. The clusterings are those of this rank.
+/// Collective.
+std::vector<LabelledOutcome> searched(const Comm& comm, const Task& task,
+                                      std::vector<LabelledOutcome> clusterings) {
+    const PartitionObjective objective = partition_objective(task.evidence, task.options.choice);
+    for (LabelledOutcome& r : clusterings) r = merged(task, objective, r);
+    std::vector<LabelledOutcome> outcomes = all_gather_records(comm, clusterings);
+    std::sort(outcomes.begin(), outcomes.end(),
+              [](const LabelledOutcome& a, const LabelledOutcome& b) { return a.index < b.index; });
+    if (outcomes.size() == 1) return outcomes;
+    const std::vector<std::size_t> best = best_outcomes(outcomes);
+    std::vector<LabelledOutcome> mine;
+    for (auto k = at(comm.rank()); k < best.size(); k += at(comm.size()))
+        mine.push_back(improved(task, objective, outcomes[best[k]]));
+    for (LabelledOutcome& r : all_gather_records(comm, mine)) outcomes[at(r.index)] = std::move(r);
+    return outcomes;
 }
 
 std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::vector<int>& mesh_of,
@@ -318,43 +286,25 @@ void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& 
     result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
 }
 
-/// K, K+1, K+2, 2K, 2.5K rounded down, 3K without repetition.
+/// 2K, 5K/2, 3K, 7K/2 and 4K clusters, rounded down.
 std::vector<int> cluster_counts(int parts) {
-    std::vector<int> clusters = {parts, parts + 1, parts + 2, 2 * parts, 5 * parts / 2, 3 * parts};
-    std::sort(clusters.begin(), clusters.end());
-    clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
-    return clusters;
+    std::vector<int> counts;
+    for (int halves = 4; halves <= 8; ++halves) counts.push_back(halves * parts / 2);
+    return counts;
 }
 
 }  // namespace
 
 std::vector<CutStart> pooled_starts(int parts, bool placed) {
-    const std::vector<int> clusters = cluster_counts(parts);
     std::vector<CutStart> starts;
-    for (const double weight : {1.0, 2.0, 4.0, 8.0}) {
-        const GraphWeights graph{weight, weight, placed};
-        for (const int count : clusters) {
-            starts.push_back({graph, count, MergeRule::normalized_cut});
-            if (count > parts) starts.push_back({graph, count, MergeRule::linkage});
-        }
+    for (const auto& [adjacency, overlap] :
+         {std::pair{0.0, 1.0}, {0.3, 1.0}, {1.0, 1.0}, {2.0, 2.0}, {4.0, 4.0}, {8.0, 8.0}}) {
+        for (const int count : cluster_counts(parts)) starts.push_back({{adjacency, overlap, placed}, count});
     }
     return starts;
 }
 
-std::vector<CutStart> articulated_starts(int parts) {
-    constexpr GraphWeights without_adjacency{0.0, 1.0};
-    std::vector<CutStart> starts;
-    for (const int count : cluster_counts(parts)) {
-        if (count == parts) continue;
-        starts.push_back({without_adjacency, count, MergeRule::normalized_cut});
-    }
-    return starts;
-}
-
-std::vector<CutStart> single_start(int parts, double adjacency) {
-    const GraphWeights graph{adjacency, adjacency};
-    return {{graph, parts, MergeRule::normalized_cut}};
-}
+std::vector<CutStart> single_start(int parts, double adjacency) { return {{{adjacency, adjacency}, parts}}; }
 
 CutResult described_partition(const std::vector<int>& labels, int parts, const std::vector<int>& mesh_of,
                               const std::vector<double>& patch_area) {
@@ -372,14 +322,26 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
         describe_parts(input.mesh_of, input.patch_area, 1, result);
         return result;
     }
-    const Comm self(MPI_COMM_SELF);
     // At most: an entry and its transpose may fall together, never apart.
     const std::int64_t entries = 2 * all_sum(comm, static_cast<std::int64_t>(input.coefficients.rows.size()));
     const bool one_rank = entries <= options.one_rank_entries;
-    const CutTerms terms = cut_terms(comm, self, one_rank, input, options);
+    const auto patches = static_cast<int>(input.mesh_of.size());
+    const auto neighbors = gather_patch_pairs(comm, input.neighbors_local, patches);
+    const auto overlaps = gather_patch_pairs(comm, input.overlaps_local, patches);
+    const GraphInput graphs{input.coefficients, neighbors, overlaps, input.mesh_of, input.positions};
+    const GraphTerms terms = graph_terms(comm, graphs,
+                                         {.form = options.form,
+                                          .minima_rule = options.minima_rule,
+                                          .drop_below = options.drop_below,
+                                          .placed = asks_for_positions(options),
+                                          .complete = one_rank});
+    const bool has_links = one_rank && options.choice.links > 0.0;
+    const PartitionEvidence evidence{neighbors,     overlaps,         input.descriptors,
+                                     input.mesh_of, input.patch_area, has_links ? &terms.base : nullptr};
+    const Task task{input, options, graphs, terms, evidence};
     std::vector<LabelledOutcome> outcomes =
-        one_rank ? run_dealt(comm, self, input, options, terms) : run_together(comm, input, options, terms);
-    result.chosen = static_cast<int>(choose(outcomes, input, options.choice));
+        searched(comm, task, one_rank ? dealt_clusterings(comm, task) : shared_clusterings(comm, task));
+    result.chosen = static_cast<int>(ranking(outcomes).front());
     result.part_of_patch = std::move(outcomes[at(result.chosen)].labels);
     result.eigenvalues = std::move(outcomes[at(result.chosen)].eigenvalues);
     for (LabelledOutcome& r : outcomes) result.starts.push_back(std::move(r.outcome));

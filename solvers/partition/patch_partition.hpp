@@ -8,8 +8,7 @@
 #include "solvers/affinity/affinity.hpp"
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/position_correlation.hpp"
-#include "solvers/partition/cluster_merging.hpp"
-#include "solvers/partition/partition_choice.hpp"
+#include "solvers/partition/partition_terms.hpp"
 #include "solvers/spectral/spectral_embedding.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
@@ -17,13 +16,10 @@
 
 namespace coseg {
 
-/// Adjacency = overlap in {1, 2, 4, 8}, clusters in {K, K+1, K+2, 2K, 5K/2, 3K}; more than K clusters are
-/// merged by both rules. With `placed`, links are weighed by position.
+/// (Adjacency, overlap) in {(0, 1), (.3, 1), (1, 1), (2, 2), (4, 4), (8, 8)}, clusters in {2K, 5K/2, 3K,
+/// 7K/2, 4K}; the clusters are merged. With `placed`, links are weighed by position. Adjacency keeps parts in
+/// one piece, but where shapes have many limbs it does harm in the cut.
 std::vector<CutStart> pooled_starts(int parts, bool placed = false);
-
-/// Without adjacency (overlap 1), clusters in {K+1, K+2, 2K, 5K/2, 3K}, merged by the normalised cut. These
-/// are for shapes with many limbs, where adjacency in the cut does harm.
-std::vector<CutStart> articulated_starts(int parts);
 
 /// One cut into the parts, with adjacency = overlap. 0 with AffinityForm::paper is the paper's text.
 std::vector<CutStart> single_start(int parts, double adjacency);
@@ -51,7 +47,7 @@ struct CutOptions {
     std::vector<CutStart> starts;  ///< at least one
     ChoiceWeights choice;
     /// Up to this number of entries of the base affinity, a start is the work of one rank, which takes about
-    /// 100 bytes an entry.
+    /// 100 bytes an entry. Above it no rank holds all links, and the choice does without links_inside.
     std::int64_t one_rank_entries = 60'000'000;
 };
 
@@ -64,8 +60,8 @@ CutResult described_partition(const std::vector<int>& labels, int parts, const s
 ///
 /// Up to one_rank_entries the affinity is gathered on every rank, the different graphs are shared out among
 /// the ranks, and each graph is cut by one rank alone. Above that number every rank keeps its rows, and all
-/// share the products of each eigenvalue problem. The result has the same bytes in both cases and on any
-/// number of ranks.
+/// share the products of each eigenvalue problem. The result has the same bytes on any number of ranks, and
+/// in both cases the same clusters.
 ///
 /// Collective. Throws AgreedError: usage (parts out of range), input (nothing to cut), not_converged,
 /// internal.

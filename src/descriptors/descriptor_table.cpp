@@ -21,13 +21,13 @@ std::vector<Descriptor> made_table() {
          .phrase = "curvature",
          .bins = BinKind::equal_mass,
          .weight = 1.0,
-         .partition = {.pooled = 0.0, .per_mesh = 1.4},
+         .partition = {.pooled = 25.0, .per_mesh = 27.0},
          .step = "curvature",
          .values = [](Context& c) -> FaceValues { return gaussian_curvature(c.mesh(), c.geometry()); }},
         {.name = "shape_diameter",
          .phrase = "shape diameter",
          .weight = 0.5,
-         .partition = {.pooled = 2.2, .per_mesh = 5.6},
+         .partition = {.pooled = 15.0, .per_mesh = 20.0},
          .step = "shape_diameter",
          .values = [](Context& c) -> FaceValues {
              return shape_diameter(c.mesh(), c.geometry(), c.graph());

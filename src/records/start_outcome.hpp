@@ -1,10 +1,8 @@
 #pragma once
 // A start of the cut, the terms that speak for the partition that it gave, and their weights. A new term of
-// the choice is added here and where it is computed (solvers/partition/partition_choice.cpp), and nowhere
+// the choice is added here and where it is computed (solvers/partition/partition_terms.cpp), and nowhere
 // else.
 
-#include <array>
-#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -27,26 +25,14 @@ struct GraphWeights {
     }
 };
 
-/// Says which two clusters are merged next.
-enum class MergeRule {
-    normalized_cut,  ///< those whose union raises the normalised cut (Shi and Malik 2000) the least
-    /// Those with the largest links / sqrt(volume * volume). This spares a small cluster that hangs together
-    /// less well than the large ones, which the normalised cut gives up first.
-    linkage,
-};
-constexpr std::array<EnumName<MergeRule>, 2> enum_names(MergeRule /*type*/) {
-    return {{{MergeRule::normalized_cut, "normalized_cut"}, {MergeRule::linkage, "linkage"}}};
-}
-
-/// One attempt: the graph is cut into `clusters`, and these are merged into the parts by their links in it.
+/// One attempt: the graph is cut into `clusters`, and these are merged into the parts
+/// (solvers/partition/cluster_merging.hpp).
 struct CutStart {
     GraphWeights graph;
     int clusters = 2;
-    MergeRule merging = MergeRule::normalized_cut;
     friend bool operator==(const CutStart&, const CutStart&) = default;
     static constexpr auto fields() {
-        return std::tuple(inlined(&CutStart::graph), field("clusters", &CutStart::clusters),
-                          field("merging", &CutStart::merging));
+        return std::tuple(inlined(&CutStart::graph), field("clusters", &CutStart::clusters));
     }
 };
 
@@ -62,56 +48,52 @@ struct BetweenPartVariance {
     }
 };
 
-/// The terms by which partitions are compared; larger is better in each.
+/// The terms by which partitions are compared; larger is better in each. None depends on which other
+/// partitions there are.
 struct PartitionTerms {
+    std::vector<BetweenPartVariance> explained;  ///< one for each descriptor that the choice uses
     double crease = 0.0;                         ///< see boundary_crease(); at most 0
     double overlap = 0.0;                        ///< see overlap_agreement(); in [0, 1]
-    std::vector<BetweenPartVariance> explained;  ///< one for each descriptor that the choice uses
     /// The mean concavity mc along the boundaries between parts, weighted by length; in [0, 1].
     double concavity = 0.0;
-    double presence = 0.0;          ///< see presence(); in [0, 1]
-    double link_consistency = 0.0;  ///< see link_consistency(); in [0, 1]
+    double size = 0.0;   ///< see size_steadiness(); at most 0
+    double links = 0.0;  ///< see links_inside(); in [0, 1]
     friend bool operator==(const PartitionTerms&, const PartitionTerms&) = default;
     static constexpr auto fields() {
         return std::tuple(
-            field("crease", &PartitionTerms::crease), field("overlap_agreement", &PartitionTerms::overlap),
-            field("explained", &PartitionTerms::explained), field("concavity", &PartitionTerms::concavity),
-            field("presence", &PartitionTerms::presence),
-            field("link_consistency", &PartitionTerms::link_consistency));
+            field("explained", &PartitionTerms::explained), field("crease", &PartitionTerms::crease),
+            field("overlap_agreement", &PartitionTerms::overlap),
+            field("concavity", &PartitionTerms::concavity), field("size_steadiness", &PartitionTerms::size),
+            field("links_inside", &PartitionTerms::links));
     }
 };
 
-/// The weights of the terms. Crease, overlap and the explained shares of the descriptors make a score. Among
-/// the partitions whose score comes within `margin` of the best, the last three terms decide together with
-/// the score.
+/// The weights of the terms in the score; those of the explained shares are in the table of descriptors.
+/// Source: fitted on labelled sets and generated families, see docs/method.md, section 7.
 struct ChoiceWeights {
-    double crease = 1.9;
-    double overlap = 1.6;
-    /// The least standard deviations over the partitions. Where nearly all partitions are alike, a deviation
-    /// below these would magnify what is different in the odd one.
-    double least_crease = 0.2;
-    double least_overlap = 0.0025;
-    double least_explained = 0.07;
-    double margin = 0.3;  ///< share of the way from the best score to the median of all
-    double score = 1.3;   ///< weight of the score among the partitions within the margin
-    double concavity = 1.2;
-    double presence = 0.8;
-    double link_consistency = 0.6;
+    double crease = 1.4;
+    double overlap = 100.0;
+    double concavity = 8.0;
+    double size = 4.0;
+    double links = 20.0;
 };
 
 /// The outcome of a start.
 struct StartOutcome {
     CutStart start;
     PartitionTerms terms;
-    double score = 0.0;   ///< see partition_scores
-    int parts_found = 0;  ///< parts with a patch; fewer than asked for where clusters came out empty
-    int set_aside = 0;    ///< patches that took no part in the cut and followed their neighbours
-    int unreached = 0;    ///< of these: without any labelled neighbour, given to the largest cluster
+    double score = 0.0;       ///< see partition_score
+    int moved = 0;            ///< moves of single patches after the merging; 0 for all but the best starts
+    int parts_found = 0;      ///< parts with a patch; fewer than asked for where clusters came out empty
+    bool degenerate = false;  ///< see is_degenerate()
+    int set_aside = 0;        ///< patches that took no part in the cut and followed their neighbours
+    int unreached = 0;        ///< of these: without any labelled neighbour, given to the largest cluster
     friend bool operator==(const StartOutcome&, const StartOutcome&) = default;
     static constexpr auto fields() {
         return std::tuple(
             inlined(&StartOutcome::start), inlined(&StartOutcome::terms),
-            field("score", &StartOutcome::score), field("parts_found", &StartOutcome::parts_found),
+            field("score", &StartOutcome::score), field("moved", &StartOutcome::moved),
+            field("parts_found", &StartOutcome::parts_found), field("degenerate", &StartOutcome::degenerate),
             field("set_aside", &StartOutcome::set_aside), field("unreached", &StartOutcome::unreached));
     }
 };

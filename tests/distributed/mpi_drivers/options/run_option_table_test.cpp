@@ -87,7 +87,6 @@ const std::map<std::string, std::vector<std::string>> changes = {
     {"segments", {"--segments"}},
     {"partition", {"--partition=diffusion"}},
     {"refine", {"--refine=none"}},
-    {"articulated", {"--no-articulated"}},
     {"places", {"--no-places"}},
 };
 

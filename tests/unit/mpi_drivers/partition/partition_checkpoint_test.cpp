@@ -14,13 +14,14 @@ TEST(KeptCut, ReturnsWhatWasWritten) {
     cut.part_share = {0.5, 0.3, 0.2};
     cut.meshes_with_part = {2, 2, 1};
     cut.starts.resize(2);
-    cut.starts[0].start = {{1.0, 2.0, true}, 5, MergeRule::linkage};
-    cut.starts[0].terms = {.crease = -0.1,
+    cut.starts[0].start = {{1.0, 2.0, true}, 5};
+    cut.starts[0].terms = {.explained = {{0.25, 0.5}, {0.125, 0.75}},
+                           .crease = -0.1,
                            .overlap = 1.0 / 3.0,
-                           .explained = {{0.25, 0.5}, {0.125, 0.75}},
                            .concavity = 0.6,
-                           .presence = 0.75,
-                           .link_consistency = 0.8};
+                           .size = -0.8};
+    cut.starts[0].moved = 7;
+    cut.starts[0].degenerate = true;
     cut.starts[1].terms.explained = {{1.0 / 7.0, 0.5}};
     cut.starts[0].score = -1.5;
     cut.eigenvalues = {1.0, 0.5};

@@ -1,0 +1,52 @@
+#pragma once
+// The graphs that the starts of a cut are cut in: links, adjacency and overlap in several proportions.
+
+#include <vector>
+
+#include "solvers/affinity/affinity.hpp"
+#include "solvers/affinity/global_patch_pairs.hpp"
+#include "solvers/affinity/position_correlation.hpp"
+#include "solvers/affinity/sparse_rows.hpp"
+#include "solvers/subspace/coefficients.hpp"
+#include "src/parallel/comm.hpp"
+#include "src/records/start_outcome.hpp"
+
+namespace coseg {
+
+/// The data of which graphs are made; as in CutInput.
+struct GraphInput {
+    const SparseCoefficients& coefficients;
+    const std::vector<GlobalPatchNeighbors>& neighbors;  ///< of all meshes
+    const std::vector<GlobalPatchOverlap>& overlaps;     ///< likewise
+    const std::vector<int>& mesh_of;
+    const Eigen::Matrix3Xd* positions = nullptr;
+};
+
+struct GraphOptions {
+    AffinityForm form = AffinityForm::links;
+    bool minima_rule = true;
+    double drop_below = 0.0;
+    bool placed = false;    ///< a graph is weighed by position
+    bool complete = false;  ///< every rank holds all rows of all graphs
+};
+
+/// The terms of which all graphs are sums.
+struct GraphTerms {
+    SparseRows base;
+    PositionFrame frame;
+    double placed_share = 1.0;  ///< total of the base weighed by place over its own
+    SparseRows adjacency;
+    SparseRows overlap;
+    double adjacency_scale = 0.0;
+    double overlap_scale = 0.0;
+    SparseRows within_mesh_affinity;  ///< A' + O', complete: what a patch set aside follows
+};
+
+/// Collective. The rows of the terms are those of the coefficients' columns, or all if `complete`.
+GraphTerms graph_terms(const Comm& comm, const GraphInput& input, const GraphOptions& options);
+
+/// The graph of these weights, rows as those of the terms. Serial.
+SparseRows graph_of(const GraphTerms& terms, const GraphInput& input, GraphWeights weights,
+                    double drop_below);
+
+}  // namespace coseg

@@ -1,0 +1,128 @@
+#include "solvers/partition/partition_objective.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "src/base/index.hpp"
+
+namespace coseg {
+
+namespace {
+
+std::vector<double> mesh_areas(const PartitionEvidence& evidence, int meshes) {
+    std::vector<double> areas(at(meshes), 0.0);
+    for (std::size_t i = 0; i < evidence.mesh_of.size(); ++i)
+        areas[at(evidence.mesh_of[i])] += evidence.patch_area[i];
+    return areas;
+}
+
+/// Writes the deviations of a descriptor into rows `first` and following.
+void add_deviations(const PartitionEvidence& evidence, const Eigen::MatrixXf& x,
+                    const std::vector<double>& mesh_area, Eigen::Index first, Eigen::MatrixXf& deviations) {
+    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(x.rows(), static_cast<Eigen::Index>(mesh_area.size()));
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+        mean.col(evidence.mesh_of[at(i)]) += evidence.patch_area[at(i)] * x.col(i).cast<double>();
+    for (std::size_t m = 0; m < mesh_area.size(); ++m) {
+        if (mesh_area[m] > 0.0) mean.col(static_cast<Eigen::Index>(m)) /= mesh_area[m];
+    }
+    double spread = 0.0;
+    double squares = 0.0;
+    auto rows = deviations.middleRows(first, x.rows());
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        const double area = evidence.patch_area[at(i)];
+        const Eigen::VectorXd of_patch = x.col(i).cast<double>();
+        const Eigen::VectorXd deviation = of_patch - mean.col(evidence.mesh_of[at(i)]);
+        squares += area * of_patch.squaredNorm();
+        spread += area * deviation.squaredNorm();
+        rows.col(i) = (area * deviation).cast<float>();
+    }
+    if (spread > 1e-12 * squares) {
+        rows /= static_cast<float>(std::sqrt(spread));
+    } else {
+        rows.setZero();
+    }
+}
+
+class Ties {
+  public:
+    explicit Ties(std::size_t patches) : of_(patches) {}
+    void add(int a, int b, double gain) {
+        of_[at(a)].push_back({b, gain});
+        of_[at(b)].push_back({a, gain});
+    }
+    std::vector<std::vector<PatchTie>> take() { return std::move(of_); }
+
+  private:
+    std::vector<std::vector<PatchTie>> of_;
+};
+
+/// What overlap_agreement gains by the pair in the same part.
+void add_overlaps(const PartitionEvidence& evidence, double weight, Ties& ties) {
+    std::vector<double> all(evidence.mesh_of.size(), 0.0);
+    for (const GlobalPatchOverlap& pair : evidence.overlaps) {
+        all[at(pair.patch_a)] += pair.intersection_over_union;
+        all[at(pair.patch_b)] += pair.intersection_over_union;
+    }
+    double area = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) area += all[i] > 0.0 ? evidence.patch_area[i] : 0.0;
+    for (const GlobalPatchOverlap& pair : evidence.overlaps) {
+        double gain = 0.0;
+        for (const std::size_t i : {at(pair.patch_a), at(pair.patch_b)}) {
+            if (all[i] > 0.0) gain += evidence.patch_area[i] / all[i];
+        }
+        ties.add(pair.patch_a, pair.patch_b, weight * pair.intersection_over_union * gain / area);
+    }
+}
+
+}  // namespace
+
+PartitionObjective partition_objective(const PartitionEvidence& evidence, const ChoiceWeights& weights) {
+    const std::vector<int>& mesh_of = evidence.mesh_of;
+    const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
+    const std::vector<double> mesh_area = mesh_areas(evidence, meshes);
+    Eigen::Index rows = 0;
+    for (const ChoiceDescriptor& d : evidence.descriptors) rows += d.histograms.rows();
+    PartitionObjective objective;
+    objective.deviations.resize(rows, static_cast<Eigen::Index>(mesh_of.size()));
+    objective.per_mesh.resize(rows);
+    objective.pooled.resize(rows);
+    Eigen::Index first = 0;
+    for (const ChoiceDescriptor& d : evidence.descriptors) {
+        add_deviations(evidence, d.histograms, mesh_area, first, objective.deviations);
+        objective.per_mesh.segment(first, d.histograms.rows())
+            .setConstant(static_cast<float>(d.weight.per_mesh));
+        objective.pooled.segment(first, d.histograms.rows()).setConstant(static_cast<float>(d.weight.pooled));
+        first += d.histograms.rows();
+    }
+    Ties ties(mesh_of.size());
+    for (const GlobalPatchNeighbors& pair : evidence.neighbors) {
+        const double flat = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
+        ties.add(pair.patch_a, pair.patch_b, weights.crease * pair.boundary_length * flat * flat / meshes);
+    }
+    add_overlaps(evidence, weights.overlap, ties);
+    objective.ties = ties.take();
+    objective.mesh_of = mesh_of;
+    objective.area = evidence.patch_area;
+    for (std::size_t i = 0; i < mesh_of.size(); ++i) {
+        const double whole = mesh_area[at(mesh_of[i])];
+        objective.share.push_back(whole > 0.0 ? evidence.patch_area[i] / whole : 0.0);
+    }
+    objective.meshes = meshes;
+    objective.size_weight = weights.size;
+    if (evidence.links != nullptr) {
+        const double all = std::accumulate(evidence.links->values.begin(), evidence.links->values.end(), 0.0);
+        objective.links = evidence.links;
+        // Both halves of a link are inside together.
+        objective.link_gain = all > 0.0 ? 2.0 * weights.links / all : 0.0;
+    }
+    return objective;
+}
+
+double relative_variance(double sum, double squares, int meshes) {
+    const double mean = sum / meshes;
+    return mean > 0.0 ? std::max(0.0, squares / meshes - mean * mean) / mean : 0.0;
+}
+
+}  // namespace coseg
