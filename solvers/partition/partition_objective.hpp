@@ -18,7 +18,8 @@ struct PatchTie {
 /// The score of partition_score without concavity, which is a ratio and no sum over the parts, and but for a
 /// constant: explained shares, crease, overlap agreement, size steadiness and links inside. The value of a
 /// part S is
-///     sum over meshes m of |X_m(S)|_1^2 / a_m(S) + |sum over m of X_m(S)|_2^2 / a(S) + ties and links inside S
+///     sum over meshes m of |X_m(S)|_1^2 / a_m(S) + |sum over m of X_m(S)|_2^2 / a(S)
+///     + ties and links inside S
 ///     - weight of size steadiness * (variance over m of s_m(S)) / (mean of s_m(S)),
 /// where X_m(S) is the sum of the deviations of the patches of S in m, the two norms weigh their rows by
 /// `per_mesh` and by `pooled`, a is area, and s_m the share of the area of m.
