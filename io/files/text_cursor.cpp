@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <limits>
 
 #include "src/base/error.hpp"
 
@@ -15,6 +16,25 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// A space, or one of the control characters \t \n \v \f \r, which follow each other in ASCII.
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// Whether the rest of a line is a backslash and blanks.
+bool is_backslash_alone(std::string_view rest) {
+    return !rest.empty() && rest.front() == '\\' && std::all_of(rest.begin() + 1, rest.end(), is_blank);
+}
+
+/// The sign of a comment behind a point is part of a number, "1.#QNAN".
+std::size_t comment_begin(std::string_view line, char comment) {
+    std::size_t begin = line.find(comment);
+    while (begin != std::string_view::npos && begin > 0 && line[begin - 1] == '.')
+        begin = line.find(comment, begin + 1);
+    return begin;
+}
+
+/// What Microsoft's older libraries write for numbers that are none: "1.#QNAN", "-1.#IND", "1.#INF".
+bool is_windows_no_number(std::string_view word) {
+    if (!word.empty() && (word.front() == '-' || word.front() == '+')) word.remove_prefix(1);
+    return word.starts_with("1.#");
+}
 
 }  // namespace
 
@@ -30,7 +50,7 @@ void TextCursor::take_line() {
     next_ = std::min(end + 1, text_.size());
     if (end + 1 < text_.size() && text_[end] == '\r' && text_[end + 1] == '\n') ++next_;
     rest_ = text_.substr(begin, end - begin);
-    if (comment_ != 0) rest_ = rest_.substr(0, rest_.find(comment_));
+    if (comment_ != 0) rest_ = rest_.substr(0, comment_begin(rest_, comment_));
     ++line_;
 }
 
@@ -47,11 +67,12 @@ bool TextCursor::next_line() {
 std::string_view TextCursor::word() {
     while (true) {
         while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
-        if (!joins_lines_ || rest_ != "\\" || next_ >= text_.size()) break;
+        if (!joins_lines_ || !is_backslash_alone(rest_) || next_ >= text_.size()) break;
         take_line();
     }
     std::size_t length = 0;
     while (length < rest_.size() && !is_blank(rest_[length])) ++length;
+    if (joins_lines_ && length > 1 && is_backslash_alone(rest_.substr(length - 1))) --length;
     const std::string_view found = rest_.substr(0, length);
     rest_.remove_prefix(length);
     return found;
@@ -72,7 +93,10 @@ void TextCursor::fail(const std::string& sentence) const {
 bool parse_real(std::string_view word, double& value) {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     const auto [end, cause] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (end != word.data() + word.size() || word.empty()) return false;
+    if (end != word.data() + word.size() || word.empty()) {
+        value = std::numeric_limits<double>::quiet_NaN();
+        return is_windows_no_number(word);
+    }
     if (cause == std::errc::result_out_of_range) value = std::strtod(std::string(word).c_str(), nullptr);
     return cause == std::errc() || cause == std::errc::result_out_of_range;
 }

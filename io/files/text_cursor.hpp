@@ -23,7 +23,11 @@ class TextCursor {
     /// The next word on this or a later line, empty at the end of the text.
     std::string_view word_on_any_line();
 
-    /// Makes a backslash at the end of a line join the next line to it.
+    /// Passes over what is left of the current line.
+    void skip_line() { rest_ = {}; }
+
+    /// Makes a backslash at the end of a line, blanks behind it allowed, join the next line to it. It ends
+    /// the word before it.
     void join_lines_at_backslash() { joins_lines_ = true; }
 
     /// Where the next line begins, in bytes from the start of the text.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/mesh_files/face_arrays.hpp"
+#include "io/mesh_files/parsed_mesh.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 
 namespace coseg {
@@ -17,13 +18,14 @@ struct MeshFormat {
     std::string_view suffix;  ///< of its files, with the dot, in lower case: ".off"
 
     /// The polygons of a file's bytes, in the file's order: as many faces as the file has, each with its
-    /// corners (a face that repeats a vertex, or has fewer than three corners, included). Throws
+    /// corners (a face that repeats a vertex, or has fewer than three corners or none, included). Vertices
+    /// that no face uses and whose coordinates are no usable numbers are left out with a warning. Throws
     /// Error(input), one sentence that begins with "PATH:LINE: " (text) or "PATH: " and names face or vertex,
     /// for a file that cannot be parsed, is cut short, holds fewer items than it promises, an index that is
     /// no vertex, or what mesh_limits.hpp refuses. Takes memory as items are found, or for as many as the
     /// file has room for, never for what a header merely promises. A mesh without faces is no error here.
     /// nullptr for a format that is only written.
-    PolygonMesh (*read)(std::string_view bytes, const std::string& path) = nullptr;
+    ParsedMesh (*read)(std::string_view bytes, const std::string& path) = nullptr;
 
     /// Writes the polygons with their parts, and with as much of the other arrays as the format holds. The
     /// file is written whole or not at all; Error(output) as in atomic_file.hpp, Error(internal) if there is

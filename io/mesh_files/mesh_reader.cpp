@@ -1,6 +1,10 @@
 #include "io/mesh_files/mesh_reader.hpp"
 
+#include <optional>
+
 #include "io/files/file_contents.hpp"
+#include "io/files/text_encoding.hpp"
+#include "io/mesh_files/foreign_content.hpp"
 #include "io/mesh_files/mesh_format.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -20,6 +24,7 @@ const MeshFormat& format_of(const std::string& path) {
 
 /// Whether any face has area, in units of the largest extent: the areas of its fan about its first corner.
 bool has_area(const PolygonMesh& mesh) {
+    if (mesh.vertices.empty()) return false;
     Eigen::Vector3d low = mesh.vertices.front();
     Eigen::Vector3d high = low;
     for (const Eigen::Vector3d& p : mesh.vertices) {
@@ -45,25 +50,39 @@ bool has_area(const PolygonMesh& mesh) {
     return false;
 }
 
-}  // namespace
-
-bool has_mesh_extension(const std::string& path) { return readable_format_of(path) != nullptr; }
-
-PolygonMesh parse_mesh(std::string_view bytes, const std::string& path) {
-    PolygonMesh mesh = format_of(path).read(bytes, path);
-    if (mesh.face_count() == 0)
+ParsedMesh parsed_by(const MeshFormat& format, std::string_view bytes, const std::string& path) {
+    ParsedMesh parsed = format.read(bytes, path);
+    if (parsed.mesh.face_count() == 0)
         throw Error(ExitCode::input, path + ": the mesh has no faces; export it with its faces");
-    if (!has_area(mesh)) {
+    if (!has_area(parsed.mesh)) {
         throw Error(
             ExitCode::input,
             path + ": the mesh has no area, all its faces are points or lines; check the coordinates");
     }
-    return mesh;
+    return parsed;
+}
+
+}  // namespace
+
+bool has_mesh_extension(const std::string& path) { return readable_format_of(path) != nullptr; }
+
+ParsedMesh parse_mesh(std::string_view bytes, const std::string& path) {
+    const MeshFormat& format = format_of(path);
+    if (bytes.empty()) throw Error(ExitCode::input, path + ": the file is empty; export the mesh again");
+    const std::optional<std::string> decoded = utf8_of_utf16(bytes);
+    const std::string_view text = decoded ? std::string_view(*decoded) : bytes;
+    try {
+        return parsed_by(format, text, path);
+    } catch (const Error& error) {
+        const std::optional<std::string> what = foreign_content(text, format.name);
+        if (!what || error.code() != ExitCode::input) throw;
+        throw Error(ExitCode::input, path + ": the file is " + *what);
+    }
 }
 
 PolygonMesh read_mesh(const std::string& path) {
     format_of(path);
-    return parse_mesh(read_file(path), path);
+    return parse_mesh(read_file(path), path).mesh;
 }
 
 }  // namespace coseg

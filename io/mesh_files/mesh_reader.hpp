@@ -4,21 +4,23 @@
 #include <string>
 #include <string_view>
 
+#include "io/mesh_files/parsed_mesh.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 
 namespace coseg {
 
-/// The polygons of the file at `path`, in the file's order: as many faces as the file has, each with its
-/// corners (a face that repeats a vertex, or has fewer than three corners, included). The suffix decides the
-/// format, in either case: a row of mesh_format.hpp. Colours, normals and texture are ignored. Coordinates
-/// are the file's own doubles, those of STL in single precision. Throws Error(input), one sentence naming
-/// file and line, face or vertex, for what the formats refuse, for a file that cannot be opened or read,
-/// another suffix, and a mesh that has no face or no area. Takes no memory for more than the file really
-/// holds.
-PolygonMesh read_mesh(const std::string& path);
+/// The polygons of a file's bytes, in the file's order: as many faces as the file has, each with its corners
+/// (a face that repeats a vertex, or has fewer than three corners or none, included). The suffix of `path`
+/// decides the format, in either case: a row of mesh_format.hpp. Text may be in UTF-8 or UTF-16. Colours,
+/// normals and texture are ignored. Coordinates are the file's own doubles. Throws Error(input), one sentence
+/// naming file and line, face or vertex, for what the formats refuse, another suffix, and a mesh that has no
+/// face or no area. Where the file is something else than its suffix says, the sentence says what it is
+/// (foreign_content.hpp). Takes no memory for more than the file really holds.
+ParsedMesh parse_mesh(std::string_view bytes, const std::string& path);
 
-/// The same for a file's bytes that are in memory already; `path` gives the format and stands in messages.
-PolygonMesh parse_mesh(std::string_view bytes, const std::string& path);
+/// The mesh of the file at `path`, without what parse_mesh warns of. Throws Error(input) also for a file that
+/// cannot be opened or read.
+PolygonMesh read_mesh(const std::string& path);
 
 /// True for the paths that read_mesh takes.
 bool has_mesh_extension(const std::string& path);

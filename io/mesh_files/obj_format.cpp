@@ -9,6 +9,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/mesh_files/mesh_limits.hpp"
+#include "io/mesh_files/unusable_vertices.hpp"
 #include "src/base/index.hpp"
 #include "src/pictures/part_colors.hpp"
 
@@ -20,22 +21,22 @@ constexpr const char* material_file = "parts.mtl";
 
 class ObjReader {
   public:
-    ObjReader(std::string_view bytes, const std::string& path) : cursor_(bytes, path, '#') {
+    ObjReader(std::string_view bytes, const std::string& path) : cursor_(bytes, path, '#'), path_(path) {
         cursor_.join_lines_at_backslash();
     }
 
-    PolygonMesh run() {
+    ParsedMesh run() {
         if (!cursor_.next_line()) cursor_.fail("the file is empty; export the mesh again");
         mesh_.offsets.push_back(0);
         do {
             const std::string_view keyword = cursor_.word();
             if (keyword == "v") read_vertex();
-            if (keyword == "f") read_face();
+            if (keyword == "f" || keyword == "fo") read_face();
         } while (cursor_.next_line());
         if (highest_index_ >= vertex_count()) {
             cursor_.fail(bad_index(face_of_highest_index_, highest_index_, vertex_count()));
         }
-        return std::move(mesh_);
+        return unusable_.left_out_of({std::move(mesh_), {}}, path_);
     }
 
   private:
@@ -51,7 +52,7 @@ class ObjReader {
                 cursor_.fail("vertex " + std::to_string(vertex_count()) +
                              " needs three coordinates, but one is " + in_quotes(word));
             }
-            if (!is_usable_coordinate(point[k])) cursor_.fail(bad_coordinate(vertex_count(), point[k]));
+            if (!is_usable_coordinate(point[k])) unusable_.add(vertex_count(), point[k], cursor_.line());
         }
         mesh_.vertices.push_back(point);
     }
@@ -60,8 +61,6 @@ class ObjReader {
         for (std::string_view word = cursor_.word(); !word.empty(); word = cursor_.word()) {
             mesh_.corners.push_back(vertex_number(word));
         }
-        if (std::ssize(mesh_.corners) == mesh_.offsets.back())
-            cursor_.fail("face " + std::to_string(face_count()) + " has no corners; correct the line");
         drop_repeated_corners();
         if (std::ssize(mesh_.corners) > most_corners) cursor_.fail(too_many_corners);
         mesh_.offsets.push_back(static_cast<int>(mesh_.corners.size()));
@@ -106,7 +105,9 @@ class ObjReader {
     }
 
     TextCursor cursor_;
+    const std::string& path_;
     PolygonMesh mesh_;
+    UnusableVertices unusable_;
     std::vector<int> sorted_;  ///< the different corners of the face at hand
     std::int64_t highest_index_ = -1;
     std::int64_t face_of_highest_index_ = 0;
@@ -127,7 +128,7 @@ std::string face_line(const PolygonMesh& mesh, std::size_t face) {
 
 }  // namespace
 
-PolygonMesh read_obj(std::string_view bytes, const std::string& path) { return ObjReader(bytes, path).run(); }
+ParsedMesh read_obj(std::string_view bytes, const std::string& path) { return ObjReader(bytes, path).run(); }
 
 void write_obj_materials(const std::string& folder, int parts) {
     std::string text = "# coseg: one material a part\n";

@@ -5,15 +5,17 @@
 #include <string_view>
 
 #include "io/mesh_files/face_arrays.hpp"
+#include "io/mesh_files/parsed_mesh.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 
 namespace coseg {
 
-/// Reads the lines "v" and "f" and skips all others, so that no material file is opened. Vertices may be
-/// numbered backwards from the latest one (-1), and what follows a slash (texture, normal) is left out. A
-/// face of at least three different vertices names each of them once. A backslash at the end of a line joins
-/// the next line to it. mesh_format.hpp says what all readers have in common.
-PolygonMesh read_obj(std::string_view bytes, const std::string& path);
+/// Reads the lines "v" and "f" (or "fo", its older name) and skips all others, so that no material file is
+/// opened. Vertices may be numbered backwards from the latest one (-1), and what follows a slash (texture,
+/// normal) or the third coordinate (a weight, a colour) is left out. A face of at least three different
+/// vertices names each of them once. A backslash at the end of a line, blanks behind it allowed, joins the
+/// next line to it. mesh_format.hpp says what all readers have in common.
+ParsedMesh read_obj(std::string_view bytes, const std::string& path);
 
 /// Writes FOLDER/parts.mtl: `parts` materials part_0, part_1, ... in the colours of part_colors.hpp.
 /// Error(output) as atomic_file.hpp.

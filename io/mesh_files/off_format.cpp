@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/mesh_files/mesh_limits.hpp"
+#include "io/mesh_files/off_header.hpp"
+#include "io/mesh_files/unusable_vertices.hpp"
+#include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {
@@ -19,93 +24,131 @@ constexpr std::size_t least_vertex_bytes = 6;
 constexpr std::size_t least_face_bytes = 4;
 constexpr std::size_t least_corner_bytes = 2;
 
+/// How the numbers of a file lie on its lines. OFF is a free format: only the colours behind the corners of a
+/// face end with the line.
+struct OffLayout {
+    /// Every vertex begins a line, and what follows its coordinates there is passed over. Otherwise a vertex
+    /// has a fixed number of words.
+    bool vertices_by_line = true;
+    int words_behind_coordinates = 0;  ///< if not by line
+    /// What follows the corners of a face on its line is its colour. Otherwise the next face may follow.
+    bool faces_by_line = true;
+    bool skips_edge_count = false;
+};
+
+/// The layouts that a file with this header may have, the most common ones first. Two of them rarely fit the
+/// same file: all but the first must use up every number.
+std::vector<OffLayout> possible_layouts(const OffHeader& header) {
+    using enum OffHeader::EdgeCount;
+    const bool is_alone = header.edge_count == on_next_line || header.edge_count == maybe_on_next_line;
+    std::vector<OffLayout> layouts{{.skips_edge_count = is_alone},
+                                   {.faces_by_line = false, .skips_edge_count = is_alone}};
+    const int others = (header.has_normals ? 3 : 0) + (header.has_texture ? 2 : 0);
+    for (const bool skips_edge_count : {true, false}) {
+        if (skips_edge_count ? !is_alone : header.edge_count == on_next_line) continue;
+        for (const int colour_words : {4, 3}) {
+            if (colour_words == 3 && !header.has_colours) continue;
+            for (const bool faces_by_line : {true, false}) {
+                layouts.push_back(
+                    {.vertices_by_line = false,
+                     .words_behind_coordinates = others + (header.has_colours ? colour_words : 0),
+                     .faces_by_line = faces_by_line,
+                     .skips_edge_count = skips_edge_count});
+            }
+        }
+    }
+    return layouts;
+}
+
 class OffReader {
   public:
-    OffReader(std::string_view bytes, const std::string& path)
-        : cursor_(bytes, path, '#'), size_(bytes.size()) {}
+    OffReader(std::string_view bytes, const std::string& path, const OffHeader& header,
+              const OffLayout& layout)
+        : cursor_(header.behind), path_(path), header_(header), layout_(layout), size_(bytes.size()) {}
 
-    PolygonMesh run() {
-        read_header();
-        mesh_.vertices.reserve(std::min(at(vertex_count_), size_ / least_vertex_bytes));
-        mesh_.offsets.reserve(std::min(at(face_count_), size_ / least_face_bytes) + 1);
-        mesh_.corners.reserve(std::min(3 * at(face_count_), size_ / least_corner_bytes));
-        for (std::int64_t v = 0; v < vertex_count_; ++v) read_vertex(v);
-        mesh_.offsets.push_back(0);
-        for (std::int64_t f = 0; f < face_count_; ++f) read_face(f);
-        if (cursor_.next_line()) {
-            cursor_.fail("the file goes on after the " + std::to_string(face_count_) +
-                         " faces its header promises; correct the counts in the header");
-        }
-        return std::move(mesh_);
+    ParsedMesh run() {
+        PolygonMesh& mesh = parsed_.mesh;
+        mesh.vertices.reserve(std::min(at(header_.vertex_count), size_ / least_vertex_bytes));
+        mesh.offsets.reserve(std::min(at(header_.face_count), size_ / least_face_bytes) + 1);
+        mesh.corners.reserve(std::min(3 * at(header_.face_count), size_ / least_corner_bytes));
+        if (layout_.skips_edge_count) cursor_.word_on_any_line();
+        if (layout_.vertices_by_line) cursor_.skip_line();
+        for (std::int64_t v = 0; v < header_.vertex_count; ++v) read_vertex(v);
+        mesh.offsets.push_back(0);
+        for (std::int64_t f = 0; f < header_.face_count; ++f) read_face(f);
+        look_behind_the_faces();
+        return unusable_.left_out_of(std::move(parsed_), path_);
     }
 
   private:
-    void read_header() {
-        if (!cursor_.next_line()) cursor_.fail("the file is empty; export the mesh again");
-        std::string_view keyword = cursor_.word();
-        for (const std::string_view prefix : {"ST", "C", "N"}) {
-            if (keyword.substr(0, prefix.size()) == prefix) keyword.remove_prefix(prefix.size());
-        }
-        if (keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF") {
-            cursor_.fail("only three coordinates a vertex are understood; export the mesh as plain OFF");
-        }
-        if (keyword.substr(0, 3) != "OFF")
-            cursor_.fail("an OFF file begins with OFF, this one with " + in_quotes(keyword));
-        keyword.remove_prefix(3);  // some collections write the first count right behind: "OFF490 518 0"
-        const std::string_view first = keyword.empty() ? cursor_.word_on_any_line() : keyword;
-        if (first == "BINARY")
-            cursor_.fail("binary OFF is not understood; export the mesh as ASCII OFF or PLY");
-        vertex_count_ = count(first, "vertices");
-        face_count_ = count(cursor_.word_on_any_line(), "faces");
-    }
-
-    std::int64_t count(std::string_view word, const std::string& what) const {
-        std::int64_t value = 0;
-        if (word.empty()) cursor_.fail("the file ends in its header, before the number of " + what);
-        if (!parse_integer(word, value) || value < 0 || value > most_vertices) {
-            cursor_.fail("the number of " + what + " in the header is " + in_quotes(word) +
-                         ", which is no count");
-        }
-        return value;
-    }
-
     void read_vertex(std::int64_t v) {
-        if (!cursor_.next_line()) fail_at_end(v, vertex_count_, "vertices");
-        Eigen::Vector3d point;
-        for (int k = 0; k < 3; ++k) {
-            const std::string_view word = cursor_.word();
-            if (!parse_real(word, point[k])) {
-                cursor_.fail("vertex " + std::to_string(v) + " needs three coordinates, but one is " +
+        Eigen::Vector3d point = Eigen::Vector3d::Zero();
+        std::string_view word = cursor_.word_on_any_line();
+        if (word.empty()) fail_at_end(v, header_.vertex_count, "vertices");
+        for (int k = 0; k < header_.coordinates; ++k) {
+            if (k > 0) word = layout_.vertices_by_line ? cursor_.word() : cursor_.word_on_any_line();
+            double value = 0.0;
+            if (!parse_real(word, value)) {
+                cursor_.fail("vertex " + std::to_string(v) + " needs " +
+                             (header_.has_weight ? "four" : "three") + " coordinates, but one is " +
                              in_quotes(word));
             }
-            if (!is_usable_coordinate(point[k])) cursor_.fail(bad_coordinate(v, point[k]));
+            if (k < 3)
+                point[k] = value;
+            else
+                point /= value;
         }
-        mesh_.vertices.push_back(point);
+        for (const double value : point) {
+            if (!is_usable_coordinate(value)) unusable_.add(v, value, cursor_.line());
+        }
+        parsed_.mesh.vertices.push_back(point);
+        if (layout_.vertices_by_line) cursor_.skip_line();
+        if (!layout_.vertices_by_line) {
+            for (int k = 0; k < layout_.words_behind_coordinates; ++k) cursor_.word_on_any_line();
+        }
     }
 
     void read_face(std::int64_t f) {
-        if (!cursor_.next_line()) fail_at_end(f, face_count_, "faces");
-        const std::string_view first = cursor_.word();
+        const std::string_view first = cursor_.word_on_any_line();
+        if (first.empty()) fail_at_end(f, header_.face_count, "faces");
         std::int64_t corners = 0;
-        if (!parse_integer(first, corners) || corners < 1) {
+        if (!parse_integer(first, corners) || corners < (layout_.faces_by_line ? 0 : 1)) {
             cursor_.fail("face " + std::to_string(f) + " begins with " + in_quotes(first) +
                          " instead of its number of corners");
         }
+        if (corners == 0 && !cursor_.word().empty())
+            cursor_.fail("face " + std::to_string(f) + " has no corners, but more numbers; correct the line");
         for (std::int64_t k = 0; k < corners; ++k) read_corner(f);
-        if (std::ssize(mesh_.corners) > most_corners) cursor_.fail(too_many_corners);
-        mesh_.offsets.push_back(static_cast<int>(mesh_.corners.size()));
+        if (std::ssize(parsed_.mesh.corners) > most_corners) cursor_.fail(too_many_corners);
+        parsed_.mesh.offsets.push_back(static_cast<int>(parsed_.mesh.corners.size()));
+        if (layout_.faces_by_line) cursor_.skip_line();
     }
 
     void read_corner(std::int64_t f) {
         const std::string_view word = cursor_.word_on_any_line();
-        if (word.empty()) fail_at_end(f, face_count_, "faces");
+        if (word.empty()) fail_at_end(f, header_.face_count, "faces");
         std::int64_t index = 0;
         if (!parse_integer(word, index)) {
             cursor_.fail("face " + std::to_string(f) + " has " + in_quotes(word) +
                          " where a vertex number should stand");
         }
-        if (index < 0 || index >= vertex_count_) cursor_.fail(bad_index(f, index, vertex_count_));
-        mesh_.corners.push_back(static_cast<int>(index));
+        if (index < 0 || index >= header_.vertex_count)
+            cursor_.fail(bad_index(f, index, header_.vertex_count));
+        parsed_.mesh.corners.push_back(static_cast<int>(index));
+    }
+
+    /// What stands behind the promised faces was not written by the one who counted them.
+    void look_behind_the_faces() {
+        const std::string_view word = cursor_.word_on_any_line();
+        if (word.empty()) return;
+        double number = 0.0;
+        const bool is_plain = layout_.vertices_by_line && layout_.faces_by_line;
+        if (!is_plain && parse_real(word, number))
+            cursor_.fail("there are more numbers than the header promises; correct the counts in the header");
+        parsed_.warnings.push_back(path_ + ":" + std::to_string(cursor_.line()) +
+                                   ": the file goes on after the " + std::to_string(header_.face_count) +
+                                   " faces that its header promises; what follows, from " + in_quotes(word) +
+                                   " on, is left out");
     }
 
     [[noreturn]] void fail_at_end(std::int64_t found, std::int64_t promised, const std::string& what) const {
@@ -114,10 +157,12 @@ class OffReader {
     }
 
     TextCursor cursor_;
+    const std::string& path_;
+    const OffHeader& header_;
+    OffLayout layout_;
     std::size_t size_;
-    PolygonMesh mesh_;
-    std::int64_t vertex_count_ = 0;
-    std::int64_t face_count_ = 0;
+    ParsedMesh parsed_;
+    UnusableVertices unusable_;
 };
 
 template <typename Number>
@@ -139,7 +184,18 @@ void append_point(std::string& text, const Eigen::Vector3d& p) {
 
 }  // namespace
 
-PolygonMesh read_off(std::string_view bytes, const std::string& path) { return OffReader(bytes, path).run(); }
+ParsedMesh read_off(std::string_view bytes, const std::string& path) {
+    const OffHeader header = read_off_header(bytes, path);
+    std::optional<Error> reason;  // why the most common layout does not fit
+    for (const OffLayout& layout : possible_layouts(header)) {
+        try {
+            return OffReader(bytes, path, header, layout).run();
+        } catch (const Error& error) {
+            if (!reason) reason = error;
+        }
+    }
+    throw Error(*reason);
+}
 
 void write_off(const std::string& path, const PolygonMesh& mesh) {
     std::string text = header(mesh.vertex_count(), mesh.face_count());

@@ -4,15 +4,17 @@
 #include <string>
 #include <string_view>
 
+#include "io/mesh_files/parsed_mesh.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 #include "src/mesh/tri_mesh.hpp"
 
 namespace coseg {
 
-/// Reads ASCII OFF, also its variants with ST, C or N in front, with the counts on the keyword's line, and
-/// with comments. What follows the coordinates of a vertex or the corners of a face on its line (colours,
-/// normals, texture) is passed over. mesh_format.hpp says what all readers have in common.
-PolygonMesh read_off(std::string_view bytes, const std::string& path);
+/// Reads ASCII OFF in all its variants (off_header.hpp), as the free format that it is: numbers may stand
+/// on any line, as long as each face begins one or no face has a colour. What follows the coordinates of a
+/// vertex or the corners of a face (normals, colours, texture) is passed over. What follows the promised
+/// faces is left out with a warning. mesh_format.hpp says what all readers have in common.
+ParsedMesh read_off(std::string_view bytes, const std::string& path);
 
 /// Coordinates have the fewest digits that read back to the same double. Faces keep their order. The file is
 /// written whole or not at all; Error(output) as in atomic_file.hpp.

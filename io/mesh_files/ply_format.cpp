@@ -1,15 +1,19 @@
 #include "io/mesh_files/ply_format.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/byte_cursor.hpp"
 #include "io/files/text_cursor.hpp"
+#include "io/mesh_files/lost_digits.hpp"
 #include "io/mesh_files/mesh_limits.hpp"
 #include "io/mesh_files/ply_header.hpp"
+#include "io/mesh_files/unusable_vertices.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/pictures/part_colors.hpp"
@@ -42,12 +46,25 @@ class ValueSource {
                 return read_as<std::int32_t>(value);
             case PlyScalar::uint32:
                 return read_as<std::uint32_t>(value);
+            case PlyScalar::int64:
+                return read_as<std::int64_t>(value);
+            case PlyScalar::uint64:
+                return read_as<std::uint64_t>(value);
             case PlyScalar::float32:
                 return read_as<float>(value);
             case PlyScalar::float64:
                 return read_as<double>(value);
+            case PlyScalar::unknown:
+                return false;
         }
         return false;
+    }
+
+    /// Passes over a value, which in text may be any word. False at the end of the data.
+    bool skip(PlyScalar type) {
+        if (!is_binary_) return !text_.word_on_any_line().empty();
+        double ignored = 0.0;
+        return read(type, ignored);
     }
 
     [[nodiscard]] std::int64_t line() const { return text_.line(); }
@@ -74,31 +91,56 @@ class PlyReader {
           data_bytes_(bytes.size() - header_.data_offset),
           source_(bytes, header_, path) {}
 
-    PolygonMesh run() {
-        bool has_faces = false;
-        mesh_.offsets.push_back(0);
-        for (const PlyElement& element : header_.elements) {
-            if (element.name == "vertex") {
-                read_vertices(element);
-            } else if (element.name == "face") {
-                read_faces(element);
-                has_faces = true;
-            } else if (!has_faces || mesh_.vertices.empty()) {
-                skip(element);
-            }
+    ParsedMesh run() {
+        const auto last = std::find_if(header_.elements.rbegin(), header_.elements.rend(), is_read).base();
+        if (std::none_of(header_.elements.begin(), last, has_faces)) {
+            fail(
+                "the PLY file has no element 'face' or 'tristrips', only points perhaps; export the mesh "
+                "with faces");
         }
-        if (!has_faces) fail("the PLY file has no element 'face'; export the mesh with faces");
+        mesh_.offsets.push_back(0);
+        for (auto element = header_.elements.begin(); element != last; ++element) {
+            if (element->name == "vertex")
+                read_vertices(*element);
+            else if (has_faces(*element))
+                read_faces(*element);
+            else
+                skip(*element);
+        }
         check_indices();
-        return std::move(mesh_);
+        ParsedMesh parsed = unusable_.left_out_of({std::move(mesh_), {}}, path_);
+        const std::optional<std::string> lost =
+            has_single_precision() ? lost_digits(parsed.mesh) : std::nullopt;
+        if (lost) parsed.warnings.push_back(path_ + ": " + *lost);
+        return parsed;
     }
 
   private:
+    static bool has_faces(const PlyElement& element) {
+        return element.name == "face" || element.name == "tristrips";
+    }
+    /// Text may have more digits than its type says.
+    [[nodiscard]] bool has_single_precision() const {
+        return header_.is_binary &&
+               std::any_of(header_.elements.begin(), header_.elements.end(), [](const PlyElement& element) {
+                   return element.name == "vertex" &&
+                          std::any_of(element.properties.begin(), element.properties.end(),
+                                      [](const PlyProperty& property) {
+                                          return axis_of(property) >= 0 &&
+                                                 property.type == PlyScalar::float32;
+                                      });
+               });
+    }
+
+    static bool is_read(const PlyElement& element) { return element.name == "vertex" || has_faces(element); }
+
+    [[nodiscard]] std::int64_t line() const {
+        return header_.is_binary ? 0 : header_.lines + std::max<std::int64_t>(source_.line(), 1);
+    }
+
     [[noreturn]] void fail(const std::string& sentence) const {
-        const std::string line =
-            header_.is_binary
-                ? ""
-                : ":" + std::to_string(header_.lines + std::max<std::int64_t>(source_.line(), 1));
-        throw Error(ExitCode::input, path_ + line + ": " + sentence);
+        const std::string place = header_.is_binary ? "" : ":" + std::to_string(line());
+        throw Error(ExitCode::input, path_ + place + ": " + sentence);
     }
 
     /// As many elements as the header promises, but no more than the file has room for.
@@ -110,6 +152,10 @@ class PlyReader {
     double value_of(PlyScalar type, const PlyElement& element, std::int64_t i) {
         double value = 0.0;
         if (source_.read(type, value)) return value;
+        fail_at(element, i);
+    }
+
+    [[noreturn]] void fail_at(const PlyElement& element, std::int64_t i) const {
         fail(element.name + " " + std::to_string(i) + " of " + std::to_string(element.count) +
              " is cut short or not a number; export the mesh again");
     }
@@ -125,7 +171,9 @@ class PlyReader {
 
     void skip_property(const PlyProperty& property, const PlyElement& element, std::int64_t i) {
         const std::int64_t values = property.list_count ? list_size(property, element, i) : 1;
-        for (std::int64_t k = 0; k < values; ++k) value_of(property.type, element, i);
+        for (std::int64_t k = 0; k < values; ++k) {
+            if (!source_.skip(property.type)) fail_at(element, i);
+        }
     }
 
     void skip(const PlyElement& element) {
@@ -163,47 +211,75 @@ class PlyReader {
                 continue;
             }
             const double value = value_of(property.type, element, i);
-            if (!is_usable_coordinate(value)) fail(bad_coordinate(i, value));
+            if (!is_usable_coordinate(value)) unusable_.add(std::ssize(mesh_.vertices), value, line());
             point[axes[p]] = value;
         }
         mesh_.vertices.push_back(point);
     }
 
-    static bool is_corner_list(const PlyProperty& property) {
-        return property.list_count && (property.name == "vertex_indices" || property.name == "vertex_index");
-    }
-
+    /// Of faces, one list of corners each, or of strips of triangles.
     void read_faces(const PlyElement& element) {
         if (std::count_if(element.properties.begin(), element.properties.end(), is_corner_list) != 1) {
-            fail("the faces need one list 'vertex_indices'; export the mesh again");
+            fail("the elements '" + element.name + "' need one list 'vertex_indices'; export the mesh again");
         }
         if (mesh_.corners.empty()) {
             mesh_.offsets.reserve(believed_count(element) + 1);
             mesh_.corners.reserve(std::min(3 * at(element.count), data_bytes_));
         }
+        const bool is_strip = element.name == "tristrips";
         for (std::int64_t i = 0; i < element.count; ++i) {
             for (const PlyProperty& property : element.properties) {
-                if (is_corner_list(property))
-                    read_corners(property, element, i);
-                else
+                if (!is_corner_list(property))
                     skip_property(property, element, i);
+                else if (is_strip)
+                    read_strips(property, element, i);
+                else
+                    read_corners(property, element, i);
             }
         }
     }
 
-    void read_corners(const PlyProperty& property, const PlyElement& element, std::int64_t i) {
-        const std::int64_t size = list_size(property, element, i);
-        if (size < 1) fail("face " + std::to_string(i) + " has no corners; correct the face");
-        for (std::int64_t k = 0; k < size; ++k) {
-            const double index = value_of(property.type, element, i);
-            if (!(index >= 0.0 && index < static_cast<double>(most_vertices)) || index != std::floor(index)) {
-                fail("face " + std::to_string(i) +
-                     " has a corner that is no vertex number; correct the face");
-            }
-            mesh_.corners.push_back(static_cast<int>(index));
-        }
+    int corner_of(const PlyProperty& property, const PlyElement& element, std::int64_t i, int least) {
+        const double index = value_of(property.type, element, i);
+        if (index >= least && index < static_cast<double>(most_vertices) && index == std::floor(index))
+            return static_cast<int>(index);
+        fail(element.name + " " + std::to_string(i) +
+             " has a corner that is no vertex number; correct the face");
+    }
+
+    void end_face() {
         if (std::ssize(mesh_.corners) > most_corners) fail(too_many_corners);
         mesh_.offsets.push_back(static_cast<int>(mesh_.corners.size()));
+    }
+
+    void read_corners(const PlyProperty& property, const PlyElement& element, std::int64_t i) {
+        const std::int64_t size = list_size(property, element, i);
+        for (std::int64_t k = 0; k < size; ++k) mesh_.corners.push_back(corner_of(property, element, i, 0));
+        end_face();
+    }
+
+    /// Every corner of a strip makes a triangle with the two before it, every other one turned, so that all
+    /// face the same side. -1 begins a new strip. A triangle that repeats a corner only leads the strip on.
+    void read_strips(const PlyProperty& property, const PlyElement& element, std::int64_t i) {
+        constexpr int restart = -1;
+        const std::int64_t size = list_size(property, element, i);
+        std::int64_t in_strip = 0;
+        std::array<int, 2> before{};
+        for (std::int64_t k = 0; k < size; ++k) {
+            const int corner = corner_of(property, element, i, restart);
+            if (corner == restart) {
+                in_strip = 0;
+                continue;
+            }
+            if (in_strip >= 2 && before[0] != before[1] && corner != before[0] && corner != before[1]) {
+                const bool is_turned = in_strip % 2 == 1;
+                mesh_.corners.insert(mesh_.corners.end(),
+                                     {before[is_turned ? 1 : 0], before[is_turned ? 0 : 1], corner});
+                end_face();
+            }
+            before = {before[1], corner};
+            ++in_strip;
+        }
     }
 
     /// Faces may come before vertices, so that their corners can be checked at the end only.
@@ -223,6 +299,7 @@ class PlyReader {
     std::size_t data_bytes_;
     ValueSource source_;
     PolygonMesh mesh_;
+    UnusableVertices unusable_;
 };
 
 constexpr int most_short_corners = std::numeric_limits<std::uint8_t>::max();
@@ -235,17 +312,18 @@ bool needs_long_count(const PolygonMesh& mesh) {
     return false;
 }
 
-std::string header(const PolygonMesh& mesh, bool has_long_count) {
+std::string header(const PolygonMesh& mesh, bool has_long_count, bool has_doubles) {
+    const std::string type = has_doubles ? "double" : "float";
     return "ply\nformat binary_little_endian 1.0\ncomment coseg: faces coloured by part\nelement vertex " +
-           std::to_string(mesh.vertex_count()) +
-           "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-           std::to_string(mesh.face_count()) + "\nproperty list " + (has_long_count ? "int" : "uchar") +
+           std::to_string(mesh.vertex_count()) + "\nproperty " + type + " x\nproperty " + type +
+           " y\nproperty " + type + " z\nelement face " + std::to_string(mesh.face_count()) +
+           "\nproperty list " + (has_long_count ? "int" : "uchar") +
            " int vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
 }
 
 }  // namespace
 
-PolygonMesh read_ply(std::string_view bytes, const std::string& path) { return PlyReader(bytes, path).run(); }
+ParsedMesh read_ply(std::string_view bytes, const std::string& path) { return PlyReader(bytes, path).run(); }
 
 void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const std::vector<int>& labels) {
     if (labels.size() != static_cast<std::size_t>(mesh.face_count())) {
@@ -253,10 +331,18 @@ void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const s
                                             std::to_string(mesh.face_count()) + " faces");
     }
     const bool has_long_count = needs_long_count(mesh);
-    std::string bytes = header(mesh, has_long_count);
-    bytes.reserve(bytes.size() + 12 * mesh.vertices.size() + 4 * mesh.corners.size() + 7 * labels.size());
+    const bool has_doubles = lost_digits(mesh).has_value();
+    std::string bytes = header(mesh, has_long_count, has_doubles);
+    const std::size_t vertex_bytes = 3 * (has_doubles ? sizeof(double) : sizeof(float));
+    bytes.reserve(bytes.size() + vertex_bytes * mesh.vertices.size() + 4 * mesh.corners.size() +
+                  7 * labels.size());
     for (const Eigen::Vector3d& p : mesh.vertices) {
-        for (int k = 0; k < 3; ++k) append_little_endian(bytes, static_cast<float>(p[k]));
+        for (const double value : p) {
+            if (has_doubles)
+                append_little_endian(bytes, value);
+            else
+                append_little_endian(bytes, static_cast<float>(value));
+        }
     }
     for (std::size_t f = 0; f < labels.size(); ++f) {
         const int size = mesh.offsets[f + 1] - mesh.offsets[f];

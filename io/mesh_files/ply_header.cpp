@@ -9,17 +9,16 @@ namespace coseg {
 
 namespace {
 
-PlyScalar scalar_named(std::string_view word, const TextCursor& cursor) {
+PlyScalar scalar_named(std::string_view word) {
     using enum PlyScalar;
     static const std::map<std::string_view, PlyScalar> names{
-        {"char", int8},     {"int8", int8},       {"uchar", uint8},    {"uint8", uint8},
-        {"short", int16},   {"int16", int16},     {"ushort", uint16},  {"uint16", uint16},
-        {"int", int32},     {"int32", int32},     {"uint", uint32},    {"uint32", uint32},
-        {"float", float32}, {"float32", float32}, {"double", float64}, {"float64", float64}};
+        {"char", int8},      {"int8", int8},      {"uchar", uint8},   {"uint8", uint8},
+        {"short", int16},    {"int16", int16},    {"ushort", uint16}, {"uint16", uint16},
+        {"int", int32},      {"int32", int32},    {"uint", uint32},   {"uint32", uint32},
+        {"int64", int64},    {"uint64", uint64},  {"float", float32}, {"float32", float32},
+        {"double", float64}, {"float64", float64}};
     const auto found = names.find(word);
-    if (found == names.end())
-        cursor.fail("the header has " + in_quotes(word) + " where a PLY type should stand");
-    return found->second;
+    return found == names.end() ? unknown : found->second;
 }
 
 std::size_t bytes_of(PlyScalar type) {
@@ -34,8 +33,12 @@ std::size_t bytes_of(PlyScalar type) {
         case PlyScalar::uint32:
         case PlyScalar::float32:
             return 4;
+        case PlyScalar::int64:
+        case PlyScalar::uint64:
         case PlyScalar::float64:
             return 8;
+        case PlyScalar::unknown:
+            return 0;
     }
     return 0;
 }
@@ -67,6 +70,8 @@ class HeaderReader {
   private:
     PlyHeader finish() {
         if (!has_format_) cursor_.fail("the header has no 'format' line; export the mesh again");
+        if (header_.is_binary && !unknown_type_.empty())
+            cursor_.fail("the header has " + unknown_type_ + " where a PLY type should stand");
         header_.data_offset = cursor_.next_line_offset();
         header_.lines = cursor_.line();
         return std::move(header_);
@@ -100,20 +105,31 @@ class HeaderReader {
         PlyProperty property;
         std::string_view type = cursor_.word();
         if (type == "list") {
-            property.list_count = scalar_named(cursor_.word(), cursor_);
+            property.list_count = type_named(cursor_.word());
             type = cursor_.word();
         }
-        property.type = scalar_named(type, cursor_);
+        property.type = type_named(type);
         property.name = cursor_.word();
         header_.elements.back().properties.push_back(std::move(property));
     }
 
+    PlyScalar type_named(std::string_view word) {
+        const PlyScalar type = scalar_named(word);
+        if (type == PlyScalar::unknown && unknown_type_.empty()) unknown_type_ = in_quotes(word);
+        return type;
+    }
+
     TextCursor cursor_;
     PlyHeader header_;
+    std::string unknown_type_;  ///< the first, in quotes
     bool has_format_ = false;
 };
 
 }  // namespace
+
+bool is_corner_list(const PlyProperty& property) {
+    return property.list_count && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
 
 PlyHeader read_ply_header(std::string_view bytes, const std::string& path) {
     return HeaderReader(bytes, path).run();

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "io/files/byte_cursor.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/mesh_files/corner_welder.hpp"
+#include "io/mesh_files/lost_digits.hpp"
 #include "io/mesh_files/mesh_limits.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -19,7 +21,7 @@ namespace {
 constexpr std::size_t header_bytes = 84;
 constexpr std::size_t facet_bytes = 50;
 
-using Facet = std::array<Eigen::Vector3f, 3>;
+using Facet = std::array<Eigen::Vector3d, 3>;
 
 /// Numbers the corners of facets. Facets with two equal corners wait until all others have their numbers.
 class FacetCollector {
@@ -31,7 +33,7 @@ class FacetCollector {
                                        is_same_position(facet[1], facet[2]) ||
                                        is_same_position(facet[2], facet[0]);
         if (has_equal_corners) waiting_.push_back({corners_.size(), facet});
-        for (const Eigen::Vector3f& corner : facet)
+        for (const Eigen::Vector3d& corner : facet)
             corners_.push_back(has_equal_corners ? -1 : welder_.number_of(corner));
         return true;
     }
@@ -71,69 +73,113 @@ bool same_word(std::string_view word, std::string_view lower_case) {
                       [](char a, char b) { return lower_case_letter(a) == b; });
 }
 
-/// An ASCII file's digits, rounded as a binary file would hold them, so that a mesh has the same labels from
-/// either kind of file. A mesh that lies far from the origin loses digits by it, from which a binary file
-/// could not save it.
-float in_single_precision(double value) { return static_cast<float>(value); }
+bool begins_with(std::string_view word, std::string_view lower_case) {
+    return same_word(word.substr(0, lower_case.size()), lower_case);
+}
 
 class StlTextReader {
   public:
-    StlTextReader(std::string_view bytes, const std::string& path) : cursor_(bytes, path, 0) {}
+    StlTextReader(std::string_view bytes, const std::string& path) : cursor_(bytes, path, 0), path_(path) {}
 
-    PolygonMesh run() {
+    ParsedMesh run() {
         bool is_inside = false;
-        while (cursor_.next_line()) {
-            const std::string_view keyword = cursor_.word();
-            if (!is_inside && same_word(keyword, "solid")) {
+        std::string_view word = cursor_.word_on_any_line();
+        for (; !word.empty(); word = cursor_.word_on_any_line()) {
+            if (!is_inside && begins_with(word, "solid")) {
+                pass_over_name();
                 is_inside = true;
-            } else if (is_inside && same_word(keyword, "endsolid")) {
-                is_inside = false;
-            } else if (is_inside && same_word(keyword, "facet")) {
+            } else if (is_inside && same_word(word, "facet")) {
                 read_facet();
+            } else if (is_inside && is_end_of(word, "solid")) {
+                cursor_.skip_line();
+                is_inside = false;
             } else {
-                cursor_.fail("an STL file has 'facet' or 'endsolid' here, not " + in_quotes(keyword));
+                break;
             }
         }
-        if (is_inside)
-            cursor_.fail("the file ends after " + number() +
-                         " facets without 'endsolid'; export the mesh again");
-        return facets_.finish();
+        if (is_inside && !word.empty())
+            cursor_.fail("an STL file has 'facet' or 'endsolid' here, not " + in_quotes(word));
+        if (is_inside) warn("the file ends without 'endsolid'; it may be cut short");
+        if (!word.empty())
+            warn("the file goes on after 'endsolid'; what follows, from " + in_quotes(word) +
+                 " on, is left out");
+        return {facets_.finish(), std::move(warnings_)};
     }
 
   private:
     /// Of the facet at hand.
     [[nodiscard]] std::string number() const { return std::to_string(facets_.facet_count()); }
 
+    void warn(const std::string& sentence) {
+        warnings_.push_back(path_ + ":" + std::to_string(cursor_.line()) + ": " + sentence);
+    }
+
+    /// The name of a solid ends with its line, unless the first facet stands on the same line.
+    void pass_over_name() {
+        TextCursor before = cursor_;
+        for (std::string_view word = cursor_.word(); !word.empty(); word = cursor_.word()) {
+            if (same_word(word, "facet") && same_word(TextCursor(cursor_).word(), "normal")) {
+                cursor_ = before;
+                return;
+            }
+            before = cursor_;
+        }
+    }
+
+    /// "endloop", "end loop", and for a solid also with its name glued to it.
+    bool is_end_of(std::string_view word, std::string_view what) {
+        if (same_word(word, "end")) {
+            const std::string_view next = cursor_.word();
+            return same_word(next, what) || (what == "solid" && next.empty());
+        }
+        if (!begins_with(word, "end")) return false;
+        word.remove_prefix(3);
+        return what == "solid" ? begins_with(word, what) : same_word(word, what);
+    }
+
+    [[noreturn]] void fail_for(std::string_view word, std::string_view expected) const {
+        if (word.empty()) cursor_.fail("the file ends inside facet " + number() + "; export the mesh again");
+        cursor_.fail("facet " + number() + " has " + in_quotes(word) + " where '" + std::string(expected) +
+                     "' should stand");
+    }
+
     void expect(std::string_view lower_case) {
         const std::string_view word = cursor_.word_on_any_line();
-        if (same_word(word, lower_case)) return;
-        cursor_.fail("facet " + number() + " has " + in_quotes(word) + " where '" + std::string(lower_case) +
-                     "' should stand");
+        if (!same_word(word, lower_case)) fail_for(word, lower_case);
+    }
+
+    void expect_end_of(std::string_view what) {
+        const std::string_view word = cursor_.word_on_any_line();
+        if (!is_end_of(word, what)) fail_for(word, "end" + std::string(what));
+    }
+
+    void expect_loop() {
+        const std::string_view word = cursor_.word_on_any_line();
+        if (same_word(word, "outerloop")) return;
+        if (!same_word(word, "outer")) fail_for(word, "outer loop");
+        expect("loop");
     }
 
     void read_facet() {
         expect("normal");
         for (int k = 0; k < 3; ++k) {
-            if (cursor_.word_on_any_line().empty()) cursor_.fail("the file ends inside facet " + number());
+            if (cursor_.word_on_any_line().empty()) fail_for({}, {});
         }
-        expect("outer");
-        expect("loop");
+        expect_loop();
         Facet facet;
-        for (Eigen::Vector3f& corner : facet) {
+        for (Eigen::Vector3d& corner : facet) {
             expect("vertex");
-            for (int k = 0; k < 3; ++k) corner[k] = in_single_precision(coordinate());
+            for (int k = 0; k < 3; ++k) corner[k] = coordinate();
         }
-        expect("endloop");
-        expect("endfacet");
+        expect_end_of("loop");
+        expect_end_of("facet");
         if (!facets_.add(facet)) cursor_.fail(too_many_corners);
     }
 
     double coordinate() {
         const std::string_view word = cursor_.word_on_any_line();
         double value = 0.0;
-        if (!parse_real(word, value))
-            cursor_.fail("facet " + number() + " has " + in_quotes(word) +
-                         " where a coordinate should stand");
+        if (!parse_real(word, value)) fail_for(word, "a coordinate");
         if (!is_usable_coordinate(value)) {
             cursor_.fail("facet " + number() +
                          " has a coordinate that is not finite or beyond 1e37; correct it");
@@ -142,22 +188,24 @@ class StlTextReader {
     }
 
     TextCursor cursor_;
+    const std::string& path_;
     FacetCollector facets_;
+    std::vector<std::string> warnings_;
 };
 
 /// The caller has seen to it that the bytes of all facets are there.
-PolygonMesh read_binary(std::string_view bytes, std::uint32_t facet_count, const std::string& path) {
+PolygonMesh read_facets(std::string_view bytes, std::size_t facet_count, const std::string& path) {
     FacetCollector facets;
     facets.expect(facet_count);
     ByteCursor cursor(bytes, header_bytes, false);
-    for (std::uint32_t f = 0; f < facet_count; ++f) {
-        Eigen::Vector3f normal;
-        for (float& value : normal.reshaped()) cursor.read(value);
+    for (std::size_t f = 0; f < facet_count; ++f) {
+        float value = 0.0F;
+        for (int k = 0; k < 3; ++k) cursor.read(value);  // the normal
         Facet facet;
-        facet.fill(Eigen::Vector3f::Zero());
-        for (Eigen::Vector3f& corner : facet) {
-            for (float& value : corner.reshaped()) {
+        for (Eigen::Vector3d& corner : facet) {
+            for (int k = 0; k < 3; ++k) {
                 cursor.read(value);
+                corner[k] = value;
                 if (is_usable_coordinate(value)) continue;
                 throw Error(ExitCode::input,
                             path + ": facet " + std::to_string(f) +
@@ -171,31 +219,66 @@ PolygonMesh read_binary(std::string_view bytes, std::uint32_t facet_count, const
     return facets.finish();
 }
 
-std::uint32_t promised_facets(std::string_view bytes) {
+std::size_t promised_facets(std::string_view bytes) {
     std::uint32_t facets = 0;
-    if (bytes.size() >= header_bytes) ByteCursor(bytes, header_bytes - sizeof facets, false).read(facets);
+    ByteCursor(bytes, header_bytes - sizeof facets, false).read(facets);
     return facets;
+}
+
+/// What a program writes that cannot go back to the header when it knows the number, as into a pipe.
+bool is_no_count(std::size_t promised) {
+    return promised == 0 || promised == std::numeric_limits<std::uint32_t>::max();
+}
+
+ParsedMesh read_binary(std::string_view bytes, const std::string& path) {
+    const std::size_t promised = promised_facets(bytes);
+    const std::size_t behind_header = bytes.size() - header_bytes;
+    const std::size_t whole_facets = behind_header / facet_bytes;
+    const std::size_t facets = is_no_count(promised) ? whole_facets : promised;
+    if (facets > whole_facets) {
+        throw Error(ExitCode::input, path + ": the file ends after " + std::to_string(whole_facets) +
+                                         " of the " + std::to_string(promised) +
+                                         " facets its header promises; export the mesh again");
+    }
+    ParsedMesh parsed{read_facets(bytes, facets, path), {}};
+    if (facets != promised) {
+        parsed.warnings.push_back(path + ": the header says " + std::to_string(promised) +
+                                  " facets; by the size of the file there are " + std::to_string(facets));
+    }
+    if (const std::size_t left = behind_header - facet_bytes * facets; left > 0) {
+        parsed.warnings.push_back(path + ": " + std::to_string(left) + (left == 1 ? " byte" : " bytes") +
+                                  " behind the last facet cannot be understood and are left out");
+    }
+    if (const std::optional<std::string> lost = lost_digits(parsed.mesh))
+        parsed.warnings.push_back(path + ": " + *lost);
+    return parsed;
+}
+
+/// Whether the bytes are text as far as the first facets of a binary file would reach, where zeros stand.
+bool is_text(std::string_view bytes) {
+    constexpr std::size_t looked_at = header_bytes + 4 * facet_bytes;
+    const std::string_view beginning = bytes.substr(0, looked_at);
+    return std::all_of(beginning.begin(), beginning.end(), [](char c) {
+        return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r');
+    });
 }
 
 }  // namespace
 
-PolygonMesh read_stl(std::string_view bytes, const std::string& path) {
+ParsedMesh read_stl(std::string_view bytes, const std::string& path) {
     if (bytes.empty()) throw Error(ExitCode::input, path + ": the file is empty; export the mesh again");
-    const std::uint32_t facets = promised_facets(bytes);
-    const std::size_t needed = header_bytes + facet_bytes * static_cast<std::size_t>(facets);
-    // Some exporters begin binary files with "solid" too: the size decides first.
-    const bool fits = bytes.size() >= header_bytes && bytes.size() == needed;
-    const bool says_solid = same_word(TextCursor(bytes, path, 0).word_on_any_line(), "solid");
-    if (!fits && says_solid) return StlTextReader(bytes, path).run();
+    // Some exporters begin binary files with "solid" too, and a header may be text: the size decides first.
+    if (bytes.size() >= header_bytes && bytes.size() == header_bytes + facet_bytes * promised_facets(bytes))
+        return read_binary(bytes, path);
+    if (is_text(bytes)) {
+        const std::string_view first = TextCursor(bytes, path, 0).word_on_any_line();
+        if (begins_with(first, "solid")) return StlTextReader(bytes, path).run();
+        throw Error(ExitCode::input, path + ": the file is text, but begins with " + in_quotes(first) +
+                                         " and not with 'solid' as an STL file does; export the mesh again");
+    }
     if (bytes.size() < header_bytes)
         throw Error(ExitCode::input, path + ": is too short for an STL file; export the mesh again");
-    if (bytes.size() < needed) {
-        throw Error(ExitCode::input, path + ": the file ends after " +
-                                         std::to_string((bytes.size() - header_bytes) / facet_bytes) +
-                                         " of the " + std::to_string(facets) +
-                                         " facets its header promises; export the mesh again");
-    }
-    return read_binary(bytes, facets, path);
+    return read_binary(bytes, path);
 }
 
 }  // namespace coseg

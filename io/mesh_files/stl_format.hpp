@@ -4,14 +4,17 @@
 #include <string>
 #include <string_view>
 
-#include "src/mesh/polygon_mesh.hpp"
+#include "io/mesh_files/parsed_mesh.hpp"
 
 namespace coseg {
 
 /// Reads ASCII and binary STL. Corners at equal positions become one vertex. Vertices are numbered in the
 /// order in which the facets name them; those that only facets with two equal corners name come last.
-/// Coordinates are in single precision, in ASCII files too. mesh_format.hpp says what all readers have in
-/// common.
-PolygonMesh read_stl(std::string_view bytes, const std::string& path);
+/// Coordinates of an ASCII file keep all their digits. Its words may be in either case and on any line, "end"
+/// may stand apart, names may be glued to "solid" and "endsolid", and a lacking "endsolid" is warned of. The
+/// number of facets in the header of a binary file is not believed if it is 0 or 2^32 - 1. What follows the
+/// last facet is left out with a warning, and coordinates that have lost digits are warned of
+/// (lost_digits.hpp). mesh_format.hpp says what all readers have in common.
+ParsedMesh read_stl(std::string_view bytes, const std::string& path);
 
 }  // namespace coseg

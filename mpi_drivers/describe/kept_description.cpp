@@ -48,7 +48,7 @@ DescribedMesh kept_description(int mesh, const MeshEntry& entry, const Descripti
     const std::string file = folder->mesh_file(description_key(bytes, entry.name, entry.path, options));
     std::string warning;
     if (std::optional<DescribedMesh> found = found_description(file, mesh, entry, *folder, warning)) {
-        found->mesh.input = parse_mesh(bytes, entry.path);
+        found->mesh.input = parse_mesh(bytes, entry.path).mesh;
         add_reading_time(found->mesh, start);
         return std::move(*found);
     }

@@ -82,7 +82,8 @@ void remesh_if_possible(TriMesh& mesh, MeshDescription& description, const std::
 TriMesh working_mesh(MeshDescription& description, const std::string& path,
                      const DescriptionOptions& options) {
     RepairedMesh repaired = repair(description.input, path);
-    description.warnings = std::move(repaired.warnings);
+    description.warnings.insert(description.warnings.end(), repaired.warnings.begin(),
+                                repaired.warnings.end());
     description.map = std::move(repaired.map);
     description.overlong_area = overlong_area_share(repaired.mesh, options.patches);
     const bool unsuitable = description.overlong_area > most_overlong_area;
@@ -126,7 +127,9 @@ TriMesh describe_surface(DescribedMesh& described, int number, const std::string
     StepClock clock(mesh);
     mesh.mesh = number;
     mesh.key = hash_text(name);
-    mesh.input = parse_mesh(bytes, path);
+    ParsedMesh parsed = parse_mesh(bytes, path);
+    mesh.input = std::move(parsed.mesh);
+    mesh.warnings = std::move(parsed.warnings);
     clock.end_of("read");
     TriMesh working = working_mesh(mesh, path, options);
     clock.end_of("repair");

@@ -15,7 +15,7 @@ TEST(CornerWelder, NumbersPositionsAsTheyAreFirstMet) {
     EXPECT_EQ(welder.number_of({1, 2, 3}), 0);
     EXPECT_EQ(welder.number_of({3, 2, 1}), 1);
     EXPECT_EQ(welder.number_of({1, 2, 3}), 0);
-    EXPECT_EQ(welder.number_of({1, 2, std::nextafter(3.0F, 4.0F)}), 2);
+    EXPECT_EQ(welder.number_of({1, 2, std::nextafter(3.0, 4.0)}), 2);
     const std::vector<Eigen::Vector3d> vertices = welder.take_vertices();
     ASSERT_EQ(vertices.size(), 3U);
     EXPECT_EQ(vertices[1], Eigen::Vector3d(3, 2, 1));
@@ -23,21 +23,21 @@ TEST(CornerWelder, NumbersPositionsAsTheyAreFirstMet) {
 
 TEST(CornerWelder, ZerosOfEitherSignAndTinyNumbersAreOne) {
     CornerWelder welder;
-    EXPECT_EQ(welder.number_of({0.0F, 1, 0.0F}), 0);
-    EXPECT_EQ(welder.number_of({-0.0F, 1, 0.0F}), 0);
-    EXPECT_EQ(welder.number_of({1e-40F, 1, -std::numeric_limits<float>::min()}), 0);
-    EXPECT_EQ(welder.number_of({1e-30F, 1, 0.0F}), 1);
-    EXPECT_TRUE(is_same_position({0, 0, -0.0F}, {0, 1e-41F, 0}));
-    EXPECT_FALSE(is_same_position({0, 0, 0}, {0, 0, 1e-30F}));
+    EXPECT_EQ(welder.number_of({0.0, 1, 0.0}), 0);
+    EXPECT_EQ(welder.number_of({-0.0, 1, 0.0}), 0);
+    EXPECT_EQ(welder.number_of({1e-40, 1, -std::numeric_limits<float>::min()}), 0);
+    EXPECT_EQ(welder.number_of({1e-30, 1, 0.0}), 1);
+    EXPECT_TRUE(is_same_position({0, 0, -0.0}, {0, 1e-41, 0}));
+    EXPECT_FALSE(is_same_position({0, 0, 0}, {0, 0, 1e-30}));
 }
 
 TEST(CornerWelder, AgreesWithAnOrderedMapOnManyPositions) {
     CornerWelder welder;
-    std::map<std::array<float, 3>, int> numbers;
+    std::map<std::array<double, 3>, int> numbers;
     SeededStream random(3);
     for (int i = 0; i < 100000; ++i) {
-        std::array<float, 3> p{};
-        for (float& value : p) value = static_cast<float>(random() % 33) / 7.0F;
+        std::array<double, 3> p{};
+        for (double& value : p) value = static_cast<double>(random() % 33) / 7.0;
         const int expected = numbers.try_emplace(p, static_cast<int>(numbers.size())).first->second;
         ASSERT_EQ(welder.number_of({p[0], p[1], p[2]}), expected);
     }

@@ -110,7 +110,7 @@ void expect_invariants(const PolygonMesh& mesh) {
     ASSERT_GE(mesh.face_count(), 1);
     ASSERT_EQ(mesh.offsets.front(), 0);
     ASSERT_EQ(mesh.offsets.back(), std::ssize(mesh.corners));
-    ASSERT_TRUE(std::is_sorted(mesh.offsets.begin(), mesh.offsets.end(), std::less_equal<>()));
+    ASSERT_TRUE(std::is_sorted(mesh.offsets.begin(), mesh.offsets.end()));
     for (const int corner : mesh.corners) ASSERT_TRUE(corner >= 0 && corner < mesh.vertex_count()) << corner;
     for (const Eigen::Vector3d& p : mesh.vertices) {
         for (const double value : p) ASSERT_TRUE(is_usable_coordinate(value)) << value;
@@ -120,7 +120,7 @@ void expect_invariants(const PolygonMesh& mesh) {
 /// Whether it was read; anything but a sound mesh or a refusal that begins with the path fails the test.
 bool is_read_or_refused(const std::string& name, const std::string& bytes) {
     PolygonMesh mesh;
-    const test::Caught caught = test::error_of([&] { mesh = parse_mesh(bytes, name); });
+    const test::Caught caught = test::error_of([&] { mesh = parse_mesh(bytes, name).mesh; });
     if (caught.threw) {
         EXPECT_EQ(caught.code, ExitCode::input);
         EXPECT_TRUE(caught.sentence.starts_with(name + ":")) << caught.sentence;

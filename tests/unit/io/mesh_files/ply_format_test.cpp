@@ -4,14 +4,17 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
+#include "io/files/byte_cursor.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/pictures/part_colors.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/manifold.hpp"
 #include "tests/support/shapes.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/tetrahedron.hpp"
 
 namespace coseg {
 namespace {
@@ -55,6 +58,97 @@ TEST(PlyFormat, PolygonWithManyCorners) {
     }
     write_colored_ply(folder.path("m.ply"), test::polygons_of(points, {face}), {63});
     EXPECT_EQ(read_mesh(folder.path("m.ply")).corners, face);
+}
+
+const std::string tetrahedron_vertices =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+const std::string tetrahedron_points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+
+TEST(PlyFormat, StripsGiveTheirTriangles) {
+    const std::string head = "ply\nformat ascii 1.0\n";
+    const auto corners = [&](const std::string& strips) {
+        return read_ply(head + tetrahedron_vertices +
+                            "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
+                            tetrahedron_points + strips,
+                        "a.ply")
+            .mesh.corners;
+    };
+    EXPECT_EQ(corners("8 0 1 2 3 -1 0 1 3"), (std::vector<int>{0, 1, 2, 2, 1, 3, 0, 1, 3}));
+    EXPECT_EQ(corners("4 0 2 1 3"), (std::vector<int>{0, 2, 1, 1, 2, 3}));
+    EXPECT_EQ(corners("7 -1 0 1 -1 -1 2 3"), std::vector<int>{});
+    // One repeated corner turns the next triangles about, as where strips are drawn.
+    EXPECT_EQ(corners("6 0 1 2 2 3 0"), (std::vector<int>{0, 1, 2, 3, 2, 0}));
+    EXPECT_EQ(corners("7 0 1 2 2 2 3 0"), (std::vector<int>{0, 1, 2, 2, 3, 0}));
+    const ParsedMesh both = read_ply(
+        head +
+            "element tristrips 2\nproperty list int int vertex_index\nelement face 1\nproperty list uchar "
+            "int vertex_index\n" +
+            tetrahedron_vertices + "end_header\n3 0 2 1 4 0 1 3 2\n3 1 2 3\n" + tetrahedron_points,
+        "a.ply");
+    EXPECT_EQ(both.mesh.corners, (std::vector<int>{0, 2, 1, 0, 1, 3, 3, 1, 2, 1, 2, 3}));
+}
+
+TEST(PlyFormat, WhatNobodyReadsMayBeAnything) {
+    test::expect_tetrahedron(read_ply(
+        "ply\r\nformat ascii 1.0\r\nobj_info num_cols 512\r\ncomment\r\nelement note 1\r\nproperty "
+        "string text\r\nelement face 4\r\nproperty list uint8 float64 texcoord\r\nproperty string "
+        "material\r\nproperty list ushort int64 vertex_index\r\nelement vertex 4\r\nproperty list "
+        "char string tags\r\nproperty double z\r\nproperty int y\r\nproperty half x\r\nelement last "
+        "7\r\nproperty int i\r\nend_header\r\nnone\r\n2 .5 n/a red 3 0 2 1\r\n0 red 3 0 1 3\r\n0 - 3 0 "
+        "3 2\r\n0 0 3 1 2 3\r\n0 0 0 0\r\n1 one 0 0 1\r\n2 a b 0 1 0\r\n0 1 0 0\r\n",
+        "a.ply"));
+}
+
+TEST(PlyFormat, FacesOfNoCornersKeepTheirPlace) {
+    const PolygonMesh mesh =
+        read_ply("ply\nformat ascii 1.0\n" + tetrahedron_vertices +
+                     "element face 3\nproperty list uchar int vertex_index\nend_header\n" +
+                     tetrahedron_points + "0\n3 0 1 2\n0\n",
+                 "a.ply")
+            .mesh;
+    EXPECT_EQ(mesh.offsets, (std::vector<int>{0, 0, 3, 3}));
+}
+
+TEST(PlyFormat, VerticesThatNoFaceUsesNeedNoNumbers) {
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float "
+        "y\nproperty float z\nelement face 4\nproperty list uchar int "
+        "vertex_index\nend_header\n";
+    const std::string faces = "3 0 2 1\n3 0 1 4\n3 0 4 2\n3 1 2 4\n";
+    const ParsedMesh parsed = read_ply(head + "0 0 0\n1 0 0\n0 1 0\nnan 0 0\n0 0 1\n" + faces, "a.ply");
+    test::expect_tetrahedron({parsed.mesh, {}});
+    EXPECT_EQ(parsed.warnings.size(), 1U);
+    const test::Caught used =
+        test::error_of([&] { read_ply(head + "0 0 0\n1 0 0\n0 nan 0\n0 0 0\n0 0 1\n" + faces, "a.ply"); });
+    EXPECT_TRUE(used.sentence.starts_with("a.ply:12: vertex 2")) << used.sentence;
+}
+
+TEST(PlyFormat, SinglePrecisionThatLostDigitsIsWarnedOf) {
+    const std::string head = "ply\nformat binary_little_endian 1.0\n" + tetrahedron_vertices +
+                             "element face 4\nproperty list uchar int vertex_index\nend_header\n";
+    for (const float origin : {0.0F, 4.5e6F}) {
+        std::string bytes = head;
+        for (const auto& point :
+             {std::array{0, 0, 0}, std::array{1, 0, 0}, std::array{0, 1, 0}, std::array{0, 0, 1}}) {
+            for (const int value : point) append_little_endian(bytes, origin + static_cast<float>(value));
+        }
+        for (const auto& face :
+             {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{0, 3, 2}, std::array{1, 2, 3}}) {
+            append_little_endian(bytes, std::uint8_t{3});
+            for (const int corner : face) append_little_endian(bytes, corner);
+        }
+        const ParsedMesh parsed = read_ply(bytes, "a.ply");
+        EXPECT_EQ(parsed.mesh.face_count(), 4);
+        EXPECT_EQ(parsed.warnings.size(), origin > 0.0F ? 1U : 0U);
+    }
+}
+
+TEST(PlyFormat, CoordinatesThatNeedDoublesAreWrittenSo) {
+    const TemporaryFolder folder;
+    PolygonMesh mesh = test::as_polygons(test::sphere(1));
+    for (Eigen::Vector3d& p : mesh.vertices) p += Eigen::Vector3d(5e5, 4.5e6, 0);
+    write_colored_ply(folder.path("m.ply"), mesh, std::vector<int>(80, 0));
+    EXPECT_EQ(read_mesh(folder.path("m.ply")).vertices, mesh.vertices);
 }
 
 TEST(PlyFormat, WrongNumberOfLabelsIsRefused) {

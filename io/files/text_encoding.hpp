@@ -1,0 +1,15 @@
+#pragma once
+// Text that is not in UTF-8.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace coseg {
+
+/// The same text in UTF-8 if the bytes are text in UTF-16, of either byte order: with a byte order mark, or
+/// without one if every other of the first bytes is zero. Nothing otherwise. Halves of characters that stand
+/// alone become U+FFFD.
+std::optional<std::string> utf8_of_utf16(std::string_view bytes);
+
+}  // namespace coseg

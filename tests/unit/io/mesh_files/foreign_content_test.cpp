@@ -1,0 +1,67 @@
+#include "io/mesh_files/foreign_content.hpp"
+
+#include <gtest/gtest.h>
+
+#include "io/mesh_files/mesh_format.hpp"
+#include "io/mesh_files/mesh_reader.hpp"
+#include "tests/support/errors.hpp"
+
+namespace coseg {
+namespace {
+
+using std::string_literals::operator""s;
+
+/// What the sentence about such a file says it is, for every suffix.
+void expect_named(const std::string& bytes, const std::string& what, const std::string& own_format = "") {
+    for (const MeshFormat& format : mesh_formats()) {
+        if (format.read == nullptr || format.name == own_format) continue;
+        const std::string path = "a" + std::string(format.suffix);
+        const test::Caught caught = test::error_of([&] { parse_mesh(bytes, path); });
+        EXPECT_EQ(caught.code, ExitCode::input);
+        EXPECT_TRUE(caught.sentence.starts_with(path + ": the file is " + what)) << caught.sentence;
+    }
+}
+
+TEST(ForeignContent, FilesThatAreNoMeshes) {
+    expect_named("", "empty");
+    expect_named("version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n", "a Git LFS pointer");
+    expect_named("/annex/objects/SHA256E-s1--0.off\n", "a git-annex pointer");
+    expect_named("<!DOCTYPE html>\n<html><head><title>404 Not Found</title></head></html>\n", "a web page");
+    expect_named("\xEF\xBB\xBF\n <HTML>\n", "a web page");
+    expect_named("PK\x03\x04 something", "a ZIP archive");
+    expect_named("\x1f\x8b\x08\x00 something"s, "a gzip archive");
+    expect_named("glTF\x02\x00\x00\x00"s, "a binary glTF file");
+    expect_named("# vtk DataFile Version 3.0\n", "a VTK file");
+    expect_named(std::string(500, '\0'), "nothing but zeros");
+    expect_named("\xff\xfe\0\0v\0\0\0 \0\0\0"s, "text in UTF-32");
+}
+
+TEST(ForeignContent, MeshesUnderAnotherSuffix) {
+    expect_named("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "an OFF file", "OFF");
+    expect_named("# x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "an OBJ file", "OBJ");
+    expect_named("ply\nformat ascii 1.0\n", "a PLY file", "PLY");
+    expect_named("solid x\nfacet normal 0 0 0\n", "an STL file", "STL");
+}
+
+TEST(ForeignContent, OwnFormatAndUnknownBytesAreNotNamed) {
+    EXPECT_EQ(foreign_content("OFF\n3 1 0\n", "OFF"), std::nullopt);
+    EXPECT_EQ(foreign_content("3 1 0\n", "OFF"), std::nullopt);
+    EXPECT_EQ(foreign_content("\x01\x02\x03", "STL"), std::nullopt);
+}
+
+TEST(ForeignContent, MeshesInUtf16AreRead) {
+    const std::string mesh = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for (const bool has_mark : {true, false}) {
+        std::string little = has_mark ? "\xff\xfe" : "";
+        std::string big = has_mark ? "\xfe\xff" : "";
+        for (const char c : mesh) {
+            little.append({c, '\0'});
+            big.append({'\0', c});
+        }
+        EXPECT_EQ(parse_mesh(little, "a.off").mesh.face_count(), 1);
+        EXPECT_EQ(parse_mesh(big, "a.off").mesh.face_count(), 1);
+    }
+}
+
+}  // namespace
+}  // namespace coseg
