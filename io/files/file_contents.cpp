@@ -24,7 +24,31 @@ std::size_t expected_bytes(const std::string& path) {
     return ignored ? 0 : static_cast<std::size_t>(size);
 }
 
+/// What is at the path, where it is no regular file; empty where it is one.
+std::string other_than_a_file(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code cause;
+    const fs::file_status status = fs::status(path, cause);
+    std::error_code ignored;
+    const bool is_link = fs::is_symlink(fs::symlink_status(path, ignored));
+    if (is_link && status.type() == fs::file_type::not_found)
+        return "is a link to " + fs::read_symlink(path, ignored).string() + ", which is not there";
+    if (cause == std::errc::too_many_symbolic_link_levels) return "is a link that leads back to itself";
+    if (status.type() == fs::file_type::not_found) return {};  // for the one that opens it to say
+    if (cause) return "cannot be opened (" + cause.message() + ")";
+    if (fs::is_regular_file(status)) return {};
+    if (fs::is_directory(status)) return "is a folder, not a file";
+    if (fs::is_fifo(status)) return "is a pipe, not a file";
+    return "is a device or a socket, not a file";
+}
+
 }  // namespace
+
+std::string read_regular_file(const std::string& path) {
+    if (const std::string other = other_than_a_file(path); !other.empty())
+        throw Error(ExitCode::input, path + ": " + other);
+    return read_file(path);
+}
 
 std::string read_file(const std::string& path) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <system_error>
+#include <tuple>
 
 #include "io/files/file_contents.hpp"
+#include "io/files/text_encoding.hpp"
 #include "io/mesh_files/mesh_format.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/error.hpp"
@@ -27,17 +31,20 @@ class MeshListExpander {
     }
 
     std::vector<MeshEntry> take() {
-        if (entries_.empty()) fail("no mesh is given; name mesh files, folders or @LIST files");
-        std::stable_sort(entries_.begin(), entries_.end(),
-                         [](const MeshEntry& a, const MeshEntry& b) { return a.name < b.name; });
-        const auto twice =
-            std::adjacent_find(entries_.begin(), entries_.end(),
-                               [](const MeshEntry& a, const MeshEntry& b) { return a.name == b.name; });
-        if (twice != entries_.end()) {
-            fail("two meshes are named '" + twice->name + "': " + twice->path + " and " +
-                 std::next(twice)->path + "; rename one or give it once");
+        if (found_.empty()) fail("no mesh is given; name mesh files, folders or @LIST files");
+        std::stable_sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+            return std::tie(a.entry.name, b.is_file) < std::tie(b.entry.name, a.is_file);
+        });
+        std::vector<MeshEntry> entries;
+        for (Found& found : found_) {
+            const bool is_taken = !entries.empty() && entries.back().name == found.entry.name;
+            if (is_taken && found.is_file) {
+                fail("two meshes are named '" + found.entry.name + "': " + entries.back().path + " and " +
+                     found.entry.path + "; rename one or give it once");
+            }
+            if (!is_taken) entries.push_back(std::move(found.entry));
         }
-        return std::move(entries_);
+        return entries;
     }
 
   private:
@@ -54,16 +61,14 @@ class MeshListExpander {
 
     void add_directory(const fs::path& folder, const std::string& where) {
         std::error_code cause;
-        const std::size_t before = entries_.size();
+        const std::size_t before = found_.size();
         for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end;
              entry.increment(cause)) {
-            std::error_code ignored;
             const bool is_hidden = entry->path().filename().string().starts_with(".");
-            if (!is_hidden && has_mesh_extension(entry->path().string()) && !entry->is_directory(ignored))
-                add_file(entry->path(), where);
+            if (!is_hidden && has_mesh_extension(entry->path().string())) add_entry(entry->path());
         }
         if (cause) fail(where + folder.string() + ": the folder cannot be read (" + cause.message() + ")");
-        if (entries_.size() == before) {
+        if (found_.size() == before) {
             fail(where + folder.string() + ": the folder has no " + readable_suffixes("or") +
                  " files; name the folder that holds the meshes");
         }
@@ -74,15 +79,20 @@ class MeshListExpander {
             fail(where + path.string() + ": meshes are read from " + readable_suffixes("and") +
                  " files; a list of meshes is given as @" + path.string());
         }
+        add_entry(path);
+    }
+
+    /// Whether the entry can be read shows when it is: a bad one costs itself, not the run.
+    void add_entry(const fs::path& path) {
         std::error_code cause;
-        const std::uintmax_t bytes = fs::file_size(path, cause);
-        if (cause) fail(where + path.string() + ": cannot be read (" + cause.message() + ")");
-        entries_.push_back({path.stem().string(), path.string(), bytes});
+        const bool is_file = fs::is_regular_file(path, cause);
+        const std::uintmax_t bytes = is_file ? fs::file_size(path, cause) : 0;
+        found_.push_back({{path.stem().string(), path.string(), cause ? 0 : bytes}, is_file});
     }
 
     void add_list(const std::string& list) {
-        const std::string text = read_file(list);
-        const std::size_t before = entries_.size();
+        const std::string text = list_text(list);
+        const std::size_t before = found_.size();
         int number = 0;
         for (std::size_t begin = 0; begin < text.size();) {
             const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -91,7 +101,16 @@ class MeshListExpander {
             ++number;
             if (!line.empty()) add_path(located(line, list), list + ":" + std::to_string(number) + ": ");
         }
-        if (entries_.size() == before) fail(list + ": the list names no meshes; write one path a line");
+        if (found_.size() == before) fail(list + ": the list names no meshes; write one path a line");
+    }
+
+    /// Editors of Windows put a byte order mark before UTF-8, or save UTF-16.
+    static std::string list_text(const std::string& list) {
+        constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+        std::string text = read_file(list);
+        if (const std::optional<std::string> decoded = utf8_of_utf16(text)) return *decoded;
+        if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+        return text;
     }
 
     static std::string without_comment(std::string line) {
@@ -113,7 +132,11 @@ class MeshListExpander {
         return fs::exists(beside, ignored) || !fs::exists(path, ignored) ? beside : path;
     }
 
-    std::vector<MeshEntry> entries_;
+    struct Found {
+        MeshEntry entry;
+        bool is_file;
+    };
+    std::vector<Found> found_;
 };
 
 }  // namespace

@@ -82,7 +82,7 @@ ParsedMesh parse_mesh(std::string_view bytes, const std::string& path) {
 
 PolygonMesh read_mesh(const std::string& path) {
     format_of(path);
-    return parse_mesh(read_file(path), path).mesh;
+    return parse_mesh(read_regular_file(path), path).mesh;
 }
 
 }  // namespace coseg

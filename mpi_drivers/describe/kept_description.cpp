@@ -43,7 +43,7 @@ std::optional<DescribedMesh> found_description(const std::string& file, int mesh
 DescribedMesh kept_description(int mesh, const MeshEntry& entry, const DescriptionOptions& options,
                                const StateFolder* folder) {
     const Clock::time_point start = Clock::now();
-    const std::string bytes = read_file(entry.path);
+    const std::string bytes = read_regular_file(entry.path);
     if (folder == nullptr) return describe_mesh(mesh, entry.name, entry.path, bytes, options);
     const std::string file = folder->mesh_file(description_key(bytes, entry.name, entry.path, options));
     std::string warning;

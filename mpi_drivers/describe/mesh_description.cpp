@@ -167,7 +167,7 @@ DescribedMesh describe_mesh(int mesh, const std::string& name, const std::string
 DescribedMesh describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
                                   const DescriptionOptions& options) {
     DescribedMesh described;
-    describe_surface(described, mesh, name, path, read_file(path), options);
+    describe_surface(described, mesh, name, path, read_regular_file(path), options);
     return described;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,6 +61,14 @@ bool asks_for_help(const std::vector<std::string_view>& words) {
                        [](std::string_view w) { return w == "--help" || w == "-h"; });
 }
 
+/// A list of meshes that the shell hands over as an open pipe, as in @<(find ...), does not reach the ranks:
+/// mpirun closes what it does not know. It keeps the pipe itself, under the number of this process.
+std::string as_ranks_see_it(std::string_view word) {
+    constexpr std::string_view open_file = "@/dev/fd/";
+    if (!word.starts_with(open_file)) return std::string(word);
+    return "@/proc/" + std::to_string(getpid()) + "/fd/" + std::string(word.substr(open_file.size()));
+}
+
 /// On one machine: more ranks than Open MPI counts cores are fine, none is tied to a core that another
 /// program uses, and who is root has decided so already.
 void prepare_environment() {
@@ -81,7 +90,7 @@ void launch_on_all_cores(int argc, char** argv) {
     if (readlink("/proc/self/exe", self.data(), self.size() - 1) <= 0) return;
     std::vector<std::string> line = {COSEG_MPIEXEC, "--quiet", "--oversubscribe",     "--bind-to",
                                      "none",        "-n",      std::to_string(ranks), self.data()};
-    line.insert(line.end(), words.begin(), words.end());
+    std::transform(words.begin(), words.end(), std::back_inserter(line), as_ranks_see_it);
     std::vector<char*> pointers;
     for (std::string& word : line) pointers.push_back(word.data());
     pointers.push_back(nullptr);

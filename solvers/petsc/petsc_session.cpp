@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <exception>
 #include <string_view>
 
@@ -50,6 +51,13 @@ bool is_option_name(const std::string& word) {
     return word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
 }
 
+/// PETSc would take options from the environment, unseen by the checks of those on the command line. They
+/// could change labels, or end the process.
+void forget_options_of_environment() {
+    unsetenv("PETSC_OPTIONS");
+    unsetenv("PETSC_OPTIONS_YAML");
+}
+
 /// OpenBLAS divides products by its number of threads, which it takes from the number of cores that a rank
 /// may use.
 void hold_blas_to_one_thread() {
@@ -86,6 +94,7 @@ PetscSession::PetscSession(const std::vector<std::string>& arguments)
     words_.insert(words_.end(), arguments.begin(), arguments.end());
     for (std::string& word : words_) pointers_.push_back(word.data());
     pointers_.push_back(nullptr);
+    forget_options_of_environment();
     int count = static_cast<int>(words_.size());
     char** values = pointers_.data();
     check(SlepcInitialize(&count, &values, nullptr, nullptr), "SlepcInitialize");

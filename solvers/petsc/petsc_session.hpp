@@ -9,7 +9,8 @@ namespace coseg {
 /// Initialises SLEPc, PETSc and, unless the program did, MPI; ends them in reverse order. One per process.
 /// PETSc's signal handlers and its printing of errors are off: errors reach the user through check() alone.
 /// BLAS is held to one thread per rank, so that results do not depend on how many cores a rank may see.
-/// Files that PETSc reads by itself (~/.petscrc) are ignored. Collective over MPI_COMM_WORLD.
+/// What PETSc reads by itself, the file ~/.petscrc and the variable PETSC_OPTIONS, is ignored. Collective
+/// over MPI_COMM_WORLD.
 class PetscSession {
   public:
     /// `arguments` are the words that the user gave for PETSc and SLEPc, for example {"-eps_ncv", "80"}.

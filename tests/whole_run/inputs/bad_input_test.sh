@@ -43,6 +43,35 @@ broken infinite '3s/.*/inf 0 0/' "bad.off"
 broken zero_faces '2s/.*/554 0 0/;557,$d' "bad.off"
 broken zero_area '3,556s/.*/0 0 0/' "bad.off"
 
+# What circulates is read, with one warning where something is left out; what is no mesh costs only itself.
+mkdir "$work/mixed"
+cp "$work/good/a.off" "$work/mixed/"
+{ cat "$work/good/b.off" && echo '<!DOCTYPE FilterScript>' && echo '<FilterScript>'; } >"$work/mixed/b.off"
+awk 'NR == 1 { print "NCOFF"; next } NR > 2 && NF == 3 { print $0, 255, 0, 0, 255, 0, 0, 1; next } { print }' \
+    "$work/good/c.off" >"$work/mixed/c.off"
+ln -s nowhere.off "$work/mixed/dangling.off"
+ln -s loop.ply "$work/mixed/loop.ply"
+mkdir "$work/mixed/folder.off"
+mkfifo "$work/mixed/pipe.stl"
+printf 'version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n' >"$work/mixed/pointer.obj"
+printf '\xef\xbb\xbf%s\r\n' "$work/mixed" >"$work/mixed.txt"
+PETSC_OPTIONS="-eps_ncv 3 -no_such_option -log_view nonsense:" run 2 @/dev/stdin <"$work/mixed.txt" 2>"$work/err" \
+    || { cat "$work/err" >&2; fail "a mixed folder was not segmented"; }
+for words in "dangling.off: is a link to nowhere.off" "folder.off: is a folder" "loop.ply: is a link that leads back" \
+    "pipe.stl: is a pipe" "pointer.obj: the file is a Git LFS pointer" "b.off:1661: the file goes on after the 1104 faces"; do
+    [[ $(grep -c -F "$words" "$work/err") -eq 1 ]] || { cat "$work/err" >&2; fail "a mixed folder: no '$words'"; }
+done
+mv "$work/result" "$work/result_mixed"
+run 2 "$work/good"
+cmp <(cat "$work"/result/labels/*.seg) <(cat "$work"/result_mixed/labels/*.seg) || fail "a mixed folder gives other labels"
+rm -r "$work/result" "$work/result_mixed"
+COSEG_RANKS=2 "$COSEG" run --quiet --parts 2 --patches 10 --geodesic-samples 40 --out "$work/result" @<(echo "$work/good") \
+    || fail "a list from a pipe of the shell"
+[[ $(ls "$work/result/labels") == $'a.seg\nb.seg\nc.seg' ]] || fail "a list from a pipe of the shell is not read whole"
+rm -r "$work/result"
+refuses "a bad entry of a folder (--strict)" 3 "dangling.off: is a link to nowhere.off" run 2 --strict "$work/mixed"
+echo "ok: mixed folder"
+
 mkdir "$work/all_bad"
 head -n 2 "$work/good/a.off" >"$work/all_bad/a.off"
 refuses "no usable mesh" 3 "a.off" run 2 "$work/all_bad"

@@ -1,10 +1,14 @@
 #include "io/mesh_files/mesh_list.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <thread>
 
+#include "io/mesh_files/mesh_reader.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -36,10 +40,52 @@ TEST(MeshList, FilesFoldersAndListsSortedByName) {
         folder.file("list.txt", "# the rest\r\n\r\n  9.off  \r\n" + folder.path("z.stl") + " # last\n");
     const std::vector<MeshEntry> entries =
         expand_mesh_list({folder.path("set"), folder.path("10.off"), "@" + list});
-    EXPECT_EQ(names(entries), (std::vector<std::string>{"10", "9", "a", "b", "c d", "z"}));
+    EXPECT_EQ(names(entries), (std::vector<std::string>{"10", "9", "a", "b", "c d", "deeper", "z"}));
     EXPECT_EQ(entries[3].bytes, 5U);
     EXPECT_EQ(entries[3].path, folder.path("set/b.off"));
     EXPECT_TRUE(std::filesystem::exists(entries[1].path));
+}
+
+TEST(MeshList, WhatIsNoFileInAFolderIsListedAndSaysSoWhenRead) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path("set/folder.off"));
+    folder.file("set/good.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    std::filesystem::create_symlink("nowhere.off", folder.path("set/dangling.off"));
+    std::filesystem::create_symlink("loop.off", folder.path("set/loop.off"));
+    std::filesystem::create_symlink("good.off", folder.path("set/link.off"));
+    ASSERT_EQ(::mkfifo(folder.path("set/pipe.off").c_str(), 0600), 0);
+    std::filesystem::create_symlink("nowhere.ply", folder.path("set/good.ply"));  // gives way to good.off
+    const std::vector<MeshEntry> entries = expand_mesh_list({folder.path("set")});
+    EXPECT_EQ(names(entries),
+              (std::vector<std::string>{"dangling", "folder", "good", "link", "loop", "pipe"}));
+    const auto sentence = [](const MeshEntry& entry) {
+        const test::Caught caught = error_of([&] { read_mesh(entry.path); });
+        return caught.threw ? caught.sentence.substr(entry.path.size()) : "";
+    };
+    EXPECT_EQ(sentence(entries[0]), ": is a link to nowhere.off, which is not there");
+    EXPECT_EQ(sentence(entries[1]), ": is a folder, not a file");
+    EXPECT_EQ(sentence(entries[2]), "");
+    EXPECT_EQ(sentence(entries[3]), "");
+    EXPECT_EQ(sentence(entries[4]), ": is a link that leads back to itself");
+    EXPECT_EQ(sentence(entries[5]), ": is a pipe, not a file");
+}
+
+TEST(MeshList, ListsMayBeInOtherEncodingsAndComeFromAPipe) {
+    const TemporaryFolder folder;
+    folder.file("a.off", "");
+    folder.file("b\xc3\xa4.off", "");
+    const std::string utf8 = "# meshes\r\na.off\r\nb\xc3\xa4.off\r\n";
+    folder.file("marked", "\xEF\xBB\xBF" + utf8);
+    std::string utf16 = "\xff\xfe";
+    for (const char c : std::string("a.off\r\nb\xe4.off\r\n")) utf16.append({c, '\0'});
+    folder.file("utf16", utf16);
+    const std::vector<std::string> both{"a", "b\xc3\xa4"};
+    EXPECT_EQ(names(expand_mesh_list({"@" + folder.path("marked")})), both);
+    EXPECT_EQ(names(expand_mesh_list({"@" + folder.path("utf16")})), both);
+    ASSERT_EQ(::mkfifo(folder.path("pipe").c_str(), 0600), 0);
+    std::thread writer([&] { std::ofstream(folder.path("pipe")) << utf8; });
+    EXPECT_EQ(names(expand_mesh_list({"@" + folder.path("pipe")})), both);
+    writer.join();
 }
 
 TEST(MeshList, ListLinesMayNameFoldersAndFilesWithSigns) {
