@@ -28,7 +28,7 @@ void assign(const Comm& comm, const std::string& run, const RunOptions& own,
 
     // Every new mesh by itself, as the run described its own.
     auto [collection, descriptors] =
-        describe_collection(comm, list_meshes_outside(comm, process.inputs, output.folder),
+        describe_collection(comm, folders.list_meshes_outside(comm, process.inputs),
                             description_options(options), process.strict, folders.state(), log);
 
     // The features of its patches, in the bins and words of the run.

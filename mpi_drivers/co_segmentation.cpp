@@ -30,7 +30,7 @@ void co_segment(const Comm& comm, const RunOptions& options,
 
     // Every mesh by itself: patches by over-segmentation, and the descriptors of its faces.
     auto [collection, descriptors] =
-        describe_collection(comm, list_meshes_outside(comm, process.inputs, output.folder),
+        describe_collection(comm, folders.list_meshes_outside(comm, process.inputs),
                             description_options(options), process.strict, folders.state(), log);
     refuse_too_many_parts(collection, partition.parts);
 

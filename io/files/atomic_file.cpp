@@ -7,11 +7,24 @@
 #include <cstring>
 
 #include "src/base/error.hpp"
+#include "src/base/seeded_random.hpp"
 
 namespace coseg {
 
-AtomicFile::AtomicFile(const std::string& path)
-    : path_(path), temporary_(path + ".partial-" + std::to_string(::getpid())) {
+namespace {
+
+/// Beside the file. Where its name is so long that none longer is allowed, a hash stands for its end.
+std::string temporary_path(const std::string& path) {
+    constexpr std::size_t longest = 200;
+    const std::string mark = ".partial-" + std::to_string(::getpid());
+    const std::size_t name_begin = path.rfind('/') + 1;  // 0 if there is no folder
+    if (path.size() - name_begin <= longest) return path + mark;
+    return path.substr(0, name_begin + longest - 16) + std::to_string(hash_text(path)) + mark;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), temporary_(temporary_path(path)) {
     errno = 0;
     stream_.open(temporary_, std::ios::binary | std::ios::trunc);
     if (!stream_) fail("cannot be created");

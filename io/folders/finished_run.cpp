@@ -5,12 +5,19 @@
 
 #include "io/files/file_contents.hpp"
 #include "src/base/error.hpp"
+#include "src/base/text.hpp"
 
 namespace coseg {
 
 namespace {
 
 using Json = nlohmann::json;
+
+/// A text of the mesh; its bytes stand beside it where they are not UTF-8.
+std::string exact_text(const Json& mesh, const std::string& key) {
+    const auto bytes = mesh.find(key + "_bytes");
+    return bytes != mesh.end() ? bytes_of_hex(bytes->get<std::string>()) : mesh.at(key).get<std::string>();
+}
 
 FinishedRun run_of(const std::string& folder, const Json& report) {
     FinishedRun run;
@@ -23,7 +30,7 @@ FinishedRun run_of(const std::string& folder, const Json& report) {
     run.geodesic_samples = options.at("geodesic-samples").get<int>();
     run.part_area = report.at("partition").at("part_area").get<std::vector<double>>();
     for (const Json& mesh : report.at("meshes")) {
-        run.shapes.push_back({mesh.at("name").get<std::string>(), mesh.at("path").get<std::string>(),
+        run.shapes.push_back({exact_text(mesh, "name"), exact_text(mesh, "path"),
                               mesh.at("part_area").get<std::vector<double>>()});
     }
     return run;

@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "io/files/atomic_file.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -167,6 +168,62 @@ void merge_folder(const fs::path& from, const fs::path& to) {
     }
 }
 
+/// Names with which files of a run begin that are no file of a mesh.
+bool is_result_file(const std::string& name) {
+    return name.starts_with("report.json") || name.starts_with("features.h5") ||
+           std::any_of(picture_files.begin(), picture_files.end(),
+                       [&](const char* begin) { return name.starts_with(begin); });
+}
+
+void refuse_folders_for_files(const fs::path& folder, const auto& is_file_of_ours) {
+    for (const fs::path& path : entries_of(folder)) {
+        std::error_code ignored;
+        if (!is_file_of_ours(path) || !fs::is_directory(path, ignored)) continue;
+        throw Error(ExitCode::output,
+                    path.string() + ": is a folder where a result is to be put; move it or name another");
+    }
+}
+
+void refuse_unwritable(const fs::path& folder) {
+    const std::string probe = (folder / (own_mark() + std::to_string(::getpid()))).string();
+    write_file(probe, "");
+    std::error_code ignored;
+    fs::remove(probe, ignored);
+}
+
+bool is_ascii(const std::string& name) {
+    return std::all_of(name.begin(), name.end(), [](char c) { return static_cast<signed char>(c) > 0; });
+}
+
+void try_name(const std::string& staging, const std::string& name) {
+    for (const OwnFolder& folder : own_folders) {
+        const std::string path = staging + "/" + folder.name + "/" + name + folder.extension;
+        try {
+            write_file(path, "");
+        } catch (const Error& error) {
+            throw Error(ExitCode::output,
+                        std::string("a result of the mesh '") + name +
+                            "' cannot be written under its name; rename the mesh: " + error.what());
+        }
+        std::error_code ignored;
+        fs::remove(path, ignored);
+    }
+}
+
+/// Labels and coloured meshes take between a fifth of a file of text with normals and colours and twice a
+/// small binary one.
+void refuse_too_little_space(const std::string& staging, std::uintmax_t input_bytes) {
+    constexpr std::uintmax_t least_share = 5;
+    std::error_code cause;
+    const fs::space_info space = fs::space(staging, cause);
+    if (cause || space.available >= input_bytes / least_share) return;
+    constexpr std::uintmax_t mebibyte = std::uintmax_t{1} << 20U;
+    throw Error(ExitCode::output, staging + ": only " + std::to_string(space.available / mebibyte) +
+                                      " MiB are free, and the results of " +
+                                      std::to_string(input_bytes / mebibyte) +
+                                      " MiB of meshes need more; make room or name another folder");
+}
+
 }  // namespace
 
 OutputDirectory::OutputDirectory(const std::string& directory, bool force)
@@ -174,6 +231,7 @@ OutputDirectory::OutputDirectory(const std::string& directory, bool force)
       staging_(staging_prefix(path_) + std::to_string(::getpid())),
       force_(force) {
     refuse_what_is_there();
+    refuse_what_is_in_the_way();
     try {
         create();
     } catch (...) {
@@ -204,6 +262,36 @@ void OutputDirectory::refuse_what_is_there() const {
             path_ +
                 ": the output folder is not empty; name another or allow replacing its results with --force");
     }
+}
+
+void OutputDirectory::refuse_what_is_in_the_way() const {
+    std::error_code ignored;
+    if (!fs::is_directory(path_, ignored)) return;
+    refuse_folders_for_files(path_,
+                             [](const fs::path& path) { return is_result_file(path.filename().string()); });
+    for (const OwnFolder& own : {own_folders[0], own_folders[1], own_folders[2], picture_pages}) {
+        const fs::path folder = fs::path(path_) / own.name;
+        if (!fs::exists(folder, ignored)) continue;
+        if (!fs::is_directory(folder, ignored)) {
+            throw Error(ExitCode::output, folder.string() +
+                                              ": is a file where a folder of results is to be put; move it "
+                                              "or name another");
+        }
+        refuse_folders_for_files(folder,
+                                 [&](const fs::path& path) { return path.extension() == own.extension; });
+        refuse_unwritable(folder);
+    }
+}
+
+void OutputDirectory::try_names(const std::vector<std::string>& names, std::uintmax_t input_bytes) const {
+    const auto longest =
+        std::max_element(names.begin(), names.end(),
+                         [](const std::string& a, const std::string& b) { return a.size() < b.size(); });
+    if (longest != names.end()) try_name(staging_, *longest);
+    for (const std::string& name : names) {
+        if (!is_ascii(name)) try_name(staging_, name);
+    }
+    refuse_too_little_space(staging_, input_bytes);
 }
 
 void OutputDirectory::create() {

@@ -1,6 +1,7 @@
 #pragma once
 // The folder of results, which is there whole or not at all.
 
+#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <string>
@@ -23,7 +24,9 @@ class OutputDirectory {
   public:
     /// Creates the partial folder with labels/, patches/ and ply/ in it, and missing parents of DIR.
     /// Throws Error(output) if DIR is a file or a link to nothing, is a folder with anything in it (unless
-    /// force; partial folders of killed runs do not count), or if the partial folder cannot be created.
+    /// force; partial folders of killed runs do not count), if the partial folder cannot be created, or if
+    /// something in DIR stands in the way of what commit() does: a folder where a file goes, a file where a
+    /// folder goes, a folder of results that cannot be written to.
     OutputDirectory(const std::string& directory, bool force);
     ~OutputDirectory();
     OutputDirectory(const OutputDirectory&) = delete;
@@ -34,6 +37,12 @@ class OutputDirectory {
 
     /// DIR as an absolute path.
     [[nodiscard]] const std::string& path() const { return path_; }
+
+    /// Sees to it that results of meshes of these names can be written: makes and removes files with the
+    /// longest name, and with every name that is not ASCII, and asks for the free space. `input_bytes` is the
+    /// size of all mesh files. Throws Error(output), a sentence naming the mesh, so that a run fails before
+    /// its work and not after it.
+    void try_names(const std::vector<std::string>& names, std::uintmax_t input_bytes) const;
 
     /// Gives the results their name. In a folder that is not empty (force), files of the same name are
     /// replaced. Files of an earlier run that this run did not write are removed: labels and PLY files
@@ -46,6 +55,7 @@ class OutputDirectory {
 
   private:
     void refuse_what_is_there() const;
+    void refuse_what_is_in_the_way() const;
     void create();
     void move_into_existing() const;
     void remove_partial() noexcept;

@@ -24,9 +24,14 @@ struct ReportMesh {
     MeshFacts facts;
     int patches = 0;                ///< over all over-segmentations
     std::vector<double> part_area;  ///< share of the mesh's area, per part
+    /// In hexadecimal digits, where they are not UTF-8 and therefore no text of JSON.
+    std::optional<std::string> name_bytes;
+    std::optional<std::string> path_bytes;
     static constexpr auto fields() {
         return std::tuple(inlined(&ReportMesh::facts), field("patches", &ReportMesh::patches),
-                          field("part_area", &ReportMesh::part_area));
+                          field("part_area", &ReportMesh::part_area),
+                          field("name_bytes", &ReportMesh::name_bytes),
+                          field("path_bytes", &ReportMesh::path_bytes));
     }
 };
 

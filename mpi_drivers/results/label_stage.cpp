@@ -1,5 +1,7 @@
 #include "mpi_drivers/results/label_stage.hpp"
 
+#include <utility>
+
 #include "solvers/boundaries/fuzzy_cut.hpp"
 #include "src/base/index.hpp"
 #include "src/patches/face_labels.hpp"
@@ -18,11 +20,13 @@ std::vector<std::vector<int>> parts_of_mesh(const PatchNumbering& numbering, int
     return parts;
 }
 
-std::vector<double> area_shares(const Eigen::VectorXd& area, const std::vector<int>& part_of_face,
+/// Of the parts as the faces of the file have them: a part that no face of the file took has no share.
+std::vector<double> area_shares(const MeshDescription& mesh, const std::vector<int>& part_of_input_face,
                                 int parts) {
     std::vector<double> share(static_cast<std::size_t>(parts), 0.0);
-    for (std::size_t f = 0; f < part_of_face.size(); ++f) {
-        share[at(part_of_face[f])] += area[static_cast<Eigen::Index>(f)];
+    for (std::size_t f = 0; f < mesh.map.input_face.size(); ++f) {
+        const int part = part_of_input_face[at(mesh.map.input_face[f])];
+        share[at(part)] += mesh.geometry.area[static_cast<Eigen::Index>(f)];
     }
     return share;
 }
@@ -49,10 +53,12 @@ std::vector<MeshLabels> label_faces(const Collection& collection, const std::vec
         const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, part_of_patch);
         const std::vector<int> part_of_face =
             refined(mesh, vote_face_labels(mesh.patches, part_of, parts, mesh.graph), refine);
+        std::vector<int> part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area);
+        std::vector<double> part_area = area_shares(mesh, part, parts);
         labels.push_back({.mesh = mesh.mesh,
-                          .part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area),
+                          .part = std::move(part),
                           .patch = carry_labels_back(mesh.map, mesh.patches.front(), mesh.geometry.area),
-                          .part_area = area_shares(mesh.geometry.area, part_of_face, parts)});
+                          .part_area = std::move(part_area)});
     }
     log.end("one part per face");
     return labels;

@@ -13,7 +13,7 @@ struct MeshLabels {
     int mesh = 0;
     std::vector<int> part;          ///< per input face, 0..K-1
     std::vector<int> patch;         ///< per input face, patch of the first over-segmentation
-    std::vector<double> part_area;  ///< K, shares of the mesh's area
+    std::vector<double> part_area;  ///< K, shares of the mesh's area; 0 for a part that no face has
 };
 
 /// Labels of this rank's meshes, voted and refined. part_of_patch: N, all patches, 0 .. parts - 1. The log

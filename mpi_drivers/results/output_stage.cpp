@@ -11,6 +11,7 @@
 #include "solvers/affinity/affinity_picture.hpp"
 #include "solvers/subspace/feature_strength.hpp"
 #include "src/base/index.hpp"
+#include "src/base/text.hpp"
 #include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
@@ -42,13 +43,20 @@ std::vector<double> to_vector(const Eigen::VectorXd& values) {
     return {values.data(), values.data() + values.size()};
 }
 
+std::optional<std::string> bytes_if_no_text(const std::string& name) {
+    return is_utf8(name) ? std::nullopt : std::optional<std::string>(hex_of_bytes(name));
+}
+
 std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::MatrixXd& part_areas) {
     std::vector<ReportMesh> rows;
     for (std::size_t m = 0; m < outcome.collection.meshes.size(); ++m) {
         const auto number = static_cast<int>(m);
-        rows.push_back({.facts = outcome.collection.meshes[m],
+        const MeshFacts& facts = outcome.collection.meshes[m];
+        rows.push_back({.facts = facts,
                         .patches = outcome.collection.numbering.count(number),
-                        .part_area = to_vector(part_areas.col(number))});
+                        .part_area = to_vector(part_areas.col(number)),
+                        .name_bytes = bytes_if_no_text(facts.name),
+                        .path_bytes = bytes_if_no_text(facts.path)});
     }
     return rows;
 }

@@ -46,6 +46,19 @@ ResultFolder::ResultFolder(const Comm& comm, const std::string& path, bool force
     broadcast(comm, staging_);
 }
 
+void ResultFolder::try_results_of(const Comm& comm, const std::vector<MeshEntry>& entries) const {
+    agree(comm, [&] {
+        if (!comm.is_root()) return;
+        std::vector<std::string> names;
+        std::uintmax_t bytes = 0;
+        for (const MeshEntry& entry : entries) {
+            names.push_back(entry.name);
+            bytes += entry.bytes;
+        }
+        on_root_->try_names(names, bytes);
+    });
+}
+
 void ResultFolder::commit(const Comm& comm) {
     agree(comm, [&] {
         if (comm.is_root()) on_root_->commit();
@@ -53,18 +66,21 @@ void ResultFolder::commit(const Comm& comm) {
 }
 
 RunFolders::RunFolders(const Comm& comm, const OutputOptions& output, const ProcessOptions& process)
-    : state_(opened_state(comm, process)), results_(comm, output.folder, output.force) {}
+    : state_(opened_state(comm, process)),
+      results_path_(output.folder),
+      results_(comm, output.folder, output.force) {}
 
 void RunFolders::end_if_asked(const Comm& comm, const std::string& kept) const {
     if (state_) state_->end_if_asked(comm, kept);
 }
 
-std::vector<MeshEntry> list_meshes_outside(const Comm& comm, const std::vector<std::string>& inputs,
-                                           const std::string& results) {
+std::vector<MeshEntry> RunFolders::list_meshes_outside(const Comm& comm,
+                                                       const std::vector<std::string>& inputs) const {
     std::vector<MeshEntry> entries = list_meshes(comm, inputs);
     agree(comm, [&] {
-        if (comm.is_root()) refuse_input_in_results(entries, results);
+        if (comm.is_root()) refuse_input_in_results(entries, results_path_);
     });
+    results_.try_results_of(comm, entries);
     return entries;
 }
 

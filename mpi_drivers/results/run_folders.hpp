@@ -25,6 +25,10 @@ class ResultFolder {
     /// Where files are written until commit.
     [[nodiscard]] const std::string& staging() const noexcept { return staging_; }
 
+    /// Sees to it that results of these meshes can be written (OutputDirectory::try_names). Collective;
+    /// throws AgreedError(output).
+    void try_results_of(const Comm& comm, const std::vector<MeshEntry>& entries) const;
+
     /// Moves the results to DIR. Collective.
     void commit(const Comm& comm);
 
@@ -44,6 +48,13 @@ class RunFolders {
     /// The state, or null where none is kept.
     [[nodiscard]] const RunState* state() const noexcept { return state_ ? &*state_ : nullptr; }
 
+    /// The meshes that a command line names, in the collection's order, on all ranks. None of them may lie in
+    /// what --force replaces: labels/, patches/ and ply/ of the folder of results; and the results of each
+    /// must be possible to write under its name. Collective; throws AgreedError: input as expand_mesh_list
+    /// does, output.
+    [[nodiscard]] std::vector<MeshEntry> list_meshes_outside(const Comm& comm,
+                                                             const std::vector<std::string>& inputs) const;
+
     /// Ends the run if a state is kept and a rank has been asked to end. `kept` says what the state holds by
     /// now. Collective; throws AgreedError(checkpointed).
     void end_if_asked(const Comm& comm, const std::string& kept) const;
@@ -53,13 +64,8 @@ class RunFolders {
 
   private:
     std::optional<RunState> state_;
+    std::string results_path_;
     ResultFolder results_;
 };
-
-/// The meshes that a command line names, in the collection's order, on all ranks. None of them may lie in
-/// what --force replaces: labels/, patches/ and ply/ of the folder of results. Collective; throws
-/// AgreedError: input as expand_mesh_list does, output.
-std::vector<MeshEntry> list_meshes_outside(const Comm& comm, const std::vector<std::string>& inputs,
-                                           const std::string& results);
 
 }  // namespace coseg

@@ -35,7 +35,9 @@ void write_results(const Comm& comm, const std::string& folder, const RunOutcome
     write_run_report(comm, folder, outcome, log);
     if (options.html && can_write_report_page()) {
         log.begin("page");
-        write_html_report(comm, {folder, {}, ""}, folder, options.view);
+        // The mesh files may have changed, or be gone, since they were read.
+        const std::string written_meshes = folder + "/ply";
+        write_html_report(comm, {folder, {written_meshes}, ""}, folder, options.view);
         log.end(options.folder + "/report.html");
     }
 }

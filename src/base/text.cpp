@@ -1,5 +1,6 @@
 #include "src/base/text.hpp"
 
+#include <charconv>
 #include <cstdio>
 
 namespace coseg {
@@ -36,6 +37,49 @@ std::string escaped(std::string_view text) {
             safe += c;
     }
     return safe;
+}
+
+bool is_utf8(std::string_view bytes) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(bytes[k]); };
+    for (std::size_t k = 0; k < bytes.size();) {
+        const unsigned first = byte(k);
+        const std::size_t more = first < 0x80   ? 0
+                                 : first < 0xC2 ? 4
+                                 : first < 0xE0 ? 1
+                                 : first < 0xF0 ? 2
+                                                : 3;
+        if (more == 4 || first > 0xF4 || bytes.size() - k <= more) return false;
+        for (std::size_t i = 1; i <= more; ++i) {
+            if ((byte(k + i) & 0xC0U) != 0x80) return false;
+        }
+        const bool is_out_of_range =
+            (first == 0xE0 && byte(k + 1) < 0xA0) || (first == 0xED && byte(k + 1) >= 0xA0) ||
+            (first == 0xF0 && byte(k + 1) < 0x90) || (first == 0xF4 && byte(k + 1) >= 0x90);
+        if (is_out_of_range) return false;
+        k += more + 1;
+    }
+    return true;
+}
+
+std::string hex_of_bytes(std::string_view bytes) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string hex;
+    for (const char c : bytes) {
+        const auto byte = static_cast<unsigned char>(c);
+        hex += {digits[byte >> 4U], digits[byte & 15U]};
+    }
+    return hex;
+}
+
+std::string bytes_of_hex(std::string_view hex) {
+    std::string bytes;
+    for (std::size_t k = 0; k + 1 < hex.size(); k += 2) {
+        unsigned char byte = 0;
+        const char* end = hex.data() + k + 2;
+        if (std::from_chars(hex.data() + k, end, byte, 16).ptr != end) break;
+        bytes += static_cast<char>(byte);
+    }
+    return bytes;
 }
 
 }  // namespace coseg

@@ -19,4 +19,12 @@ std::string percent(double share, int digits);
 /// quotation marks.
 std::string escaped(std::string_view text);
 
+/// Whether the bytes are UTF-8, without surrogates and numbers that are written longer than need be.
+bool is_utf8(std::string_view bytes);
+
+/// Two lower-case hexadecimal digits for each byte, and the bytes of such a text. What is no pair of such
+/// digits ends the bytes.
+std::string hex_of_bytes(std::string_view bytes);
+std::string bytes_of_hex(std::string_view hex);
+
 }  // namespace coseg

@@ -54,6 +54,43 @@ TEST(OutputDirectory, AnEmptyFolderIsTaken) {
     EXPECT_EQ(tree(folder.path()), (std::set<std::string>{"out", "out/labels", "out/patches", "out/ply"}));
 }
 
+TEST(OutputDirectory, NamesAreTriedBeforehand) {
+    const TemporaryFolder folder;
+    const OutputDirectory output(folder.path("out"), false);
+    const std::string longest(251, 'x');  // 255 bytes with ".seg"
+    output.try_names({"a", longest, "caf\xe9", "new\nline", "b"}, 1000);
+    write_labels(output.staging() + "/labels/" + longest + ".seg", {1, 2});
+    EXPECT_EQ(read_labels(output.staging() + "/labels/" + longest + ".seg", 2), (std::vector<int>{1, 2}));
+    fs::remove(output.staging() + "/labels/" + longest + ".seg");
+    EXPECT_EQ(tree(output.staging()), (std::set<std::string>{"labels", "patches", "ply"}));
+    const test::Caught too_long = error_of([&] { output.try_names({"a", longest + "y"}, 1000); });
+    EXPECT_EQ(too_long.code, ExitCode::output);
+    EXPECT_NE(too_long.sentence.find("rename the mesh"), std::string::npos) << too_long.sentence;
+    const test::Caught too_much = error_of([&] { output.try_names({"a"}, std::uintmax_t{1} << 60U); });
+    EXPECT_EQ(too_much.code, ExitCode::output);
+    EXPECT_NE(too_much.sentence.find("MiB are free"), std::string::npos) << too_much.sentence;
+}
+
+TEST(OutputDirectory, WhatIsInTheWayIsRefusedAtOnce) {
+    const TemporaryFolder folder;
+    const auto refused = [&] {
+        return error_of([&] { const OutputDirectory output(folder.path("out"), true); }).sentence;
+    };
+    for (const std::string in_the_way : {"out/report.json", "out/labels/a.seg", "out/ply/b.ply"}) {
+        fs::create_directories(folder.path(in_the_way));
+        EXPECT_EQ(refused(), fs::canonical(folder.path(in_the_way)).string() +
+                                 ": is a folder where a result is to be put; move it or name another");
+        fs::remove_all(folder.path("out"));
+    }
+    fs::create_directory(folder.path("out"));
+    folder.file("out/patches", "");
+    EXPECT_NE(refused().find("patches: is a file where a folder"), std::string::npos);
+    fs::remove(folder.path("out/patches"));
+    fs::create_directories(folder.path("out/labels/mine"));
+    EXPECT_EQ(refused(), "");
+    EXPECT_EQ(tree(folder.path()), (std::set<std::string>{"out", "out/labels", "out/labels/mine"}));
+}
+
 TEST(OutputDirectory, FilesAndFullFoldersAreRefused) {
     const TemporaryFolder folder;
     fs::create_directory(folder.path("full"));

@@ -21,5 +21,21 @@ TEST(Text, EscapedTextHoldsNothingThatMarkupReads) {
     EXPECT_EQ(escaped(""), "");
 }
 
+TEST(Text, Utf8IsToldFromOtherBytes) {
+    for (const char* text : {"", "plain", "\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x98\x80", "\xf4\x8f\xbf\xbf"})
+        EXPECT_TRUE(is_utf8(text)) << text;
+    for (const char* bytes : {"caf\xe9", "\xc3", "\xc0\x80", "\xe0\x9f\xbf", "\xed\xa0\x80",
+                              "\xf4\x90\x80\x80", "\xff", "\x80", "\xe2\x82", "\xf8\x88\x80\x80\x80"})
+        EXPECT_FALSE(is_utf8(bytes)) << bytes;
+}
+
+TEST(Text, BytesComeBackFromTheirDigits) {
+    std::string bytes;
+    for (int k = 0; k < 256; ++k) bytes += static_cast<char>(k);
+    EXPECT_EQ(bytes_of_hex(hex_of_bytes(bytes)), bytes);
+    EXPECT_EQ(hex_of_bytes("caf\xe9"), "636166e9");
+    EXPECT_EQ(bytes_of_hex("6361g6"), "ca");
+}
+
 }  // namespace
 }  // namespace coseg
