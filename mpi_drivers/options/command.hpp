@@ -29,6 +29,7 @@ struct Command {
 /// Each function adds its subcommand to `parent`. CLI11 validates the options (type, range) before run is
 /// called.
 Command add_run_command(CLI::App& parent);
+Command add_check_command(CLI::App& parent);
 Command add_generate_command(CLI::App& parent);
 Command add_score_command(CLI::App& parent);
 Command add_solve_command(CLI::App& parent);

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# coseg check: one line a mesh, the same on any number of ranks, the sentences of a run, and an exit code.
+set -euo pipefail
+# shellcheck source=tests/whole_run/fixture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
+
+mkdir "$work/set"
+peanut "$work/set/a.off" 0.5
+{ peanut "$work/all" 0.6 && cat "$work/all" && echo '<!DOCTYPE FilterScript>'; } >"$work/set/b.off"
+awk 'NR == 1 { print; next } NR == 2 { print 2 * $1, 2 * $2, 0; next } NF == 3 { v[n++] = $0; next } { f[m++] = $0 }
+    END { for (i = 0; i < n; ++i) print v[i]
+          for (i = 0; i < n; ++i) { split(v[i], p); print p[1] + 9, p[2], p[3] }
+          for (i = 0; i < m; ++i) print f[i]
+          for (i = 0; i < m; ++i) { split(f[i], q); print 3, q[2] + n, q[3] + n, q[4] + n } }' "$work/all" >"$work/set/c.off"
+printf 'version https://git-lfs.github.com/spec/v1\n' >"$work/set/d.obj"
+ln -s nowhere "$work/set/e.ply"
+peanut "$work/set/"$'caf\xe9.off' 0.7
+
+code=0
+"$COSEG" check "$work/set" --json "$work/check.json" >"$work/one" 2>"$work/err" || code=$?
+[[ $code -eq 3 ]] || fail "exit code $code, not 3: $(cat "$work/err")"
+[[ $(cat "$work/err") == "coseg: 2 of 6 meshes would be set aside; "* ]] || fail "the sentence at the end: $(cat "$work/err")"
+cat >"$work/expected" <<END
+$work/set/a.off: 554 vertices, 1104 faces, 1 piece
+$work/set/b.off: 554 vertices, 1104 faces, 1 piece; line 1661: the file goes on after the 1104 faces that its header promises; what follows, from '<!DOCTYPE' on, is left out
+$work/set/c.off: 1108 vertices, 2208 faces, 2 pieces
+$work/set/caf@.off: 554 vertices, 1104 faces, 1 piece
+$work/set/d.obj: set aside: the file is a Git LFS pointer, not the mesh itself; fetch the mesh with 'git lfs pull'
+$work/set/e.ply: set aside: is a link to nowhere, which is not there
+6 meshes: 3 as they are, 1 with something to repair or to know, 2 set aside
+END
+LC_ALL=C sed 's/caf\xe9/caf@/' "$work/one" | diff - "$work/expected" || fail "what check prints"
+for count in 2 4; do
+    ranks "$count" "$COSEG" check "$work/set" --json "$work/check_$count.json" >"$work/more" 2>"$work/err" || true
+    cmp "$work/one" "$work/more" || fail "another text on $count ranks"
+    cmp "$work/check.json" "$work/check_$count.json" || fail "another JSON on $count ranks"
+done
+echo "ok: the same lines on 1, 2 and 4 ranks"
+
+# What check says is what a run says.
+"$COSEG" run --quiet --parts 2 --patches 10 --geodesic-samples 40 --no-html --out "$work/run" "$work/set" 2>"$work/err"
+python3 - "$work/check.json" "$work/run/report.json" <<'END' || fail "check and run differ"
+import json, sys
+check, run = (json.load(open(path, encoding="utf-8")) for path in sys.argv[1:])
+assert check["totals"] == {"meshes": 6, "warned": 1, "set_aside": 2}, check["totals"]
+usable = [mesh for mesh in check["meshes"] if not mesh["set_aside"]]
+for key in ("path", "faces", "warnings"):
+    assert [m[key] for m in usable] == [m[key] for m in run["meshes"]], key
+assert [m.get("name_bytes") for m in usable] == [None, None, None, b"caf\xe9".hex()]
+aside = {m["path"]: m["set_aside"] for m in check["meshes"] if m["set_aside"]}
+assert aside == {m["path"]: m["reason"] for m in run["set_aside"]}, aside
+END
+echo "ok: check says what a run says"
+
+rm "$work/set/d.obj" "$work/set/e.ply"
+"$COSEG" check "$work/set" >"$work/out" || fail "meshes that can be used give another exit code than 0"
+refuses "nothing to check" 3 "no such file" "$COSEG" check "$work/nowhere"
+refuses "a JSON file that cannot be written" 4 "check.json" "$COSEG" check "$work/set" --json "$work/nowhere/check.json"
