@@ -17,10 +17,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 /// A space, or one of the control characters \t \n \v \f \r, which follow each other in ASCII.
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// Whether the rest of a line is a backslash and blanks.
-bool is_backslash_alone(std::string_view rest) {
-    return !rest.empty() && rest.front() == '\\' && std::all_of(rest.begin() + 1, rest.end(), is_blank);
-}
+bool is_blank_to_the_end(std::string_view rest) { return std::all_of(rest.begin(), rest.end(), is_blank); }
 
 /// The sign of a comment behind a point is part of a number, "1.#QNAN".
 std::size_t comment_begin(std::string_view line, char comment) {
@@ -67,12 +64,14 @@ bool TextCursor::next_line() {
 std::string_view TextCursor::word() {
     while (true) {
         while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
-        if (!joins_lines_ || !is_backslash_alone(rest_) || next_ >= text_.size()) break;
+        if (!joins_lines_ || rest_.empty() || rest_.front() != '\\') break;
+        if (!is_blank_to_the_end(rest_.substr(1)) || next_ >= text_.size()) break;
         take_line();
     }
     std::size_t length = 0;
     while (length < rest_.size() && !is_blank(rest_[length])) ++length;
-    if (joins_lines_ && length > 1 && is_backslash_alone(rest_.substr(length - 1))) --length;
+    const bool may_join = joins_lines_ && length > 1 && rest_[length - 1] == '\\';
+    if (may_join && is_blank_to_the_end(rest_.substr(length))) --length;
     const std::string_view found = rest_.substr(0, length);
     rest_.remove_prefix(length);
     return found;
@@ -80,8 +79,9 @@ std::string_view TextCursor::word() {
 
 std::string_view TextCursor::word_on_any_line() {
     while (true) {
+        if (rest_.empty() && !next_line()) return {};
         const std::string_view found = word();
-        if (!found.empty() || !next_line()) return found;
+        if (!found.empty()) return found;
     }
 }
 
@@ -107,11 +107,13 @@ bool parse_integer(std::string_view word, std::int64_t& value) {
     return cause == std::errc() && end == word.data() + word.size() && !word.empty();
 }
 
-std::string in_quotes(std::string_view word) {
+std::string printable(std::string_view word) {
     constexpr std::size_t longest = 40;
-    std::string shown = "'";
+    std::string shown;
     for (const char c : word.substr(0, longest)) shown += c >= ' ' && c <= '~' ? c : '?';
-    return shown + (word.size() > longest ? "...'" : "'");
+    return shown + (word.size() > longest ? "..." : "");
 }
+
+std::string in_quotes(std::string_view word) { return "'" + printable(word) + "'"; }
 
 }  // namespace coseg

@@ -56,7 +56,10 @@ class TextCursor {
 bool parse_real(std::string_view word, double& value);
 bool parse_integer(std::string_view word, std::int64_t& value);
 
-/// The word in quotes for messages, shortened and without unprintable bytes.
+/// The word for messages, shortened and without bytes that cannot be printed.
+std::string printable(std::string_view word);
+
+/// The same in quotes.
 std::string in_quotes(std::string_view word);
 
 }  // namespace coseg

@@ -8,6 +8,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_cursor.hpp"
+#include "io/mesh_files/lost_digits.hpp"
 #include "io/mesh_files/mesh_limits.hpp"
 #include "io/mesh_files/unusable_vertices.hpp"
 #include "src/base/index.hpp"
@@ -113,9 +114,13 @@ class ObjReader {
     std::int64_t face_of_highest_index_ = 0;
 };
 
-std::string numbers(const char* keyword, double a, double b, double c) {
+constexpr int digits_of_single_precision = 9;
+constexpr int digits_of_double_precision = 17;
+
+std::string numbers(const char* keyword, double a, double b, double c,
+                    int digits = digits_of_single_precision) {
     char text[96];
-    std::snprintf(text, sizeof text, "%s %.9g %.9g %.9g\n", keyword, a, b, c);
+    std::snprintf(text, sizeof text, "%s %.*g %.*g %.*g\n", keyword, digits, a, digits, b, digits, c);
     return text;
 }
 
@@ -143,7 +148,8 @@ void write_obj_materials(const std::string& folder, int parts) {
 void write_obj(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
     const std::vector<int>& labels = parts_of(arrays, mesh.face_count(), path);
     std::string text = std::string("# coseg: faces grouped by part\nmtllib ") + material_file + "\n";
-    for (const Eigen::Vector3d& p : mesh.vertices) text += numbers("v", p.x(), p.y(), p.z());
+    const int digits = lost_digits(mesh) ? digits_of_double_precision : digits_of_single_precision;
+    for (const Eigen::Vector3d& p : mesh.vertices) text += numbers("v", p.x(), p.y(), p.z(), digits);
     const int parts = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end()) + 1;
     for (int part = 0; part < parts; ++part) {
         if (std::find(labels.begin(), labels.end(), part) == labels.end()) continue;

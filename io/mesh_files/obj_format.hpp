@@ -21,9 +21,9 @@ ParsedMesh read_obj(std::string_view bytes, const std::string& path);
 /// Error(output) as atomic_file.hpp.
 void write_obj_materials(const std::string& folder, int parts);
 
-/// Writes vertices in their order with 9 digits, and the faces of each part, in their order, under its
-/// material, which stands in parts.mtl in the same folder. Error(output) as there, Error(internal) as
-/// parts_of.
+/// Writes vertices in their order with 9 digits, or 17 where lost_digits.hpp asks for them, and the faces
+/// of each part, in their order, under its material, which stands in parts.mtl in the same folder.
+/// Error(output) as there, Error(internal) as parts_of.
 void write_obj(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);
 
 }  // namespace coseg

@@ -89,7 +89,7 @@ class HeaderReader {
 
     void read_element() {
         PlyElement element;
-        element.name = cursor_.word();
+        element.name = printable(cursor_.word());
         const std::string_view count = cursor_.word();
         if (!parse_integer(count, element.count) || element.count < 0 ||
             element.count > std::numeric_limits<int>::max()) {

@@ -19,7 +19,7 @@ struct PlyProperty {
 };
 
 struct PlyElement {
-    std::string name;
+    std::string name;        ///< as printable() shows it
     std::int64_t count = 0;  ///< 0 .. 2^31 - 1, as the header promises
     std::vector<PlyProperty> properties;
 };

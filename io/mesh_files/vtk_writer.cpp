@@ -5,6 +5,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/byte_cursor.hpp"
+#include "io/mesh_files/lost_digits.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 
@@ -55,7 +56,11 @@ void write_vtp(const std::string& path, const PolygonMesh& mesh, const FaceArray
         std::to_string(mesh.vertex_count()) +
         "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" " + "NumberOfPolys=\"" +
         std::to_string(mesh.face_count()) + "\">\n";
-    xml += "<Points>\n" + appended.add<float>("Float32", "points", 3, coordinates(mesh)) + "</Points>\n";
+    const std::vector<double> points = coordinates(mesh);
+    xml += "<Points>\n" +
+           (lost_digits(mesh) ? appended.add<double>("Float64", "points", 3, points)
+                              : appended.add<float>("Float32", "points", 3, points)) +
+           "</Points>\n";
     const std::vector<int> ends(mesh.offsets.begin() + (mesh.offsets.empty() ? 0 : 1), mesh.offsets.end());
     xml += "<Polys>\n" + appended.add<std::int32_t>("Int32", "connectivity", 1, mesh.corners) +
            appended.add<std::int32_t>("Int32", "offsets", 1, ends) + "</Polys>\n";

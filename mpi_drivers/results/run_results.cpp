@@ -1,10 +1,24 @@
 #include "mpi_drivers/results/run_results.hpp"
 
+#include <vector>
+
 #include "io/reports/report_page.hpp"
 #include "mpi_drivers/results/picture_stage.hpp"
 #include "mpi_drivers/results/report_stage.hpp"
 
 namespace coseg {
+
+namespace {
+
+/// The coloured meshes in the folder: the files of the meshes may have changed, or be gone, since they were
+/// read.
+std::vector<std::string> written_meshes(const std::string& folder, const Collection& collection) {
+    std::vector<std::string> paths;
+    for (const MeshFacts& mesh : collection.meshes) paths.push_back(folder + "/ply/" + mesh.name + ".ply");
+    return paths;
+}
+
+}  // namespace
 
 std::optional<ReportState> state_summary(const Comm& comm, const RunState* state,
                                          const RunCheckpoints* checkpoints, const Collection& collection) {
@@ -35,9 +49,8 @@ void write_results(const Comm& comm, const std::string& folder, const RunOutcome
     write_run_report(comm, folder, outcome, log);
     if (options.html && can_write_report_page()) {
         log.begin("page");
-        // The mesh files may have changed, or be gone, since they were read.
-        const std::string written_meshes = folder + "/ply";
-        write_html_report(comm, {folder, {written_meshes}, ""}, folder, options.view);
+        write_html_report(comm, {folder, written_meshes(folder, outcome.collection), ""}, folder,
+                          options.view);
         log.end(options.folder + "/report.html");
     }
 }

@@ -70,6 +70,23 @@ TEST(MeshFormat, WhatIsWrittenReadsBack) {
     EXPECT_EQ(test::error_of([] { writable_format("stl"); }).code, ExitCode::internal);
 }
 
+TEST(MeshFormat, MapCoordinatesAreWrittenWithAllTheirDigits) {
+    const test::TemporaryFolder folder;
+    PolygonMesh mesh = test::polygons_of({{0, 0, 0}, {1.1, 0, 0}, {0, 1.3, 0}, {0, 0, 0.7}},
+                                         {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+    for (Eigen::Vector3d& p : mesh.vertices) p += Eigen::Vector3d(5e5, 4.5e6, 100);
+    for (const std::string& name : writable_formats()) {
+        SCOPED_TRACE(name);
+        const MeshFormat& format = writable_format(name);
+        const std::string path = folder.path("map" + std::string(format.suffix));
+        format.write(path, mesh, {{{"part", {0, 0, 1, 1}}}, {}});
+        if (format.read != nullptr)
+            EXPECT_EQ(read_mesh(path).vertices, mesh.vertices);
+        else
+            EXPECT_NE(test::content_of(path).find("Float64"), std::string::npos);
+    }
+}
+
 const fs::path source_folder =
     fs::path(__FILE__).parent_path().parent_path().parent_path().parent_path().parent_path();
 
