@@ -10,8 +10,6 @@ namespace coseg {
 
 namespace {
 
-using std::string_view_literals::operator""sv;
-
 struct Beginning {
     std::string_view bytes;  ///< in lower case
     std::string_view what;
@@ -20,37 +18,37 @@ struct Beginning {
 constexpr std::string_view unpack = "; unpack it and give the meshes inside";
 constexpr std::string_view convert = "; convert it to OFF, OBJ, PLY or STL";
 
-constexpr std::array packed{Beginning{"pk\x03\x04"sv, "a ZIP archive"},
-                            Beginning{"\x1f\x8b"sv, "a gzip archive"},
-                            Beginning{"bzh"sv, "a bzip2 archive"},
-                            Beginning{"\xfd\x37zxz"sv, "an xz archive"},
-                            Beginning{"7z\xbc\xaf"sv, "a 7z archive"},
-                            Beginning{"rar!"sv, "a RAR archive"},
-                            Beginning{"\x28\xb5\x2f\xfd"sv, "a Zstandard archive"}};
+constexpr std::array packed{Beginning{"pk\x03\x04", "a ZIP archive"},
+                            Beginning{"\x1f\x8b", "a gzip archive"},
+                            Beginning{"bzh", "a bzip2 archive"},
+                            Beginning{"\xfd\x37zxz", "an xz archive"},
+                            Beginning{"7z\xbc\xaf", "a 7z archive"},
+                            Beginning{"rar!", "a RAR archive"},
+                            Beginning{"\x28\xb5\x2f\xfd", "a Zstandard archive"}};
 
-constexpr std::array other_formats{Beginning{"gltf"sv, "a binary glTF file"},
-                                   Beginning{"kaydara fbx"sv, "an FBX file"},
-                                   Beginning{"; fbx"sv, "an FBX file"},
-                                   Beginning{"#vrml"sv, "a VRML file"},
-                                   Beginning{"#inventor"sv, "an Open Inventor file"},
-                                   Beginning{"# vtk datafile"sv, "a VTK file"},
-                                   Beginning{"iso-10303-21"sv, "a STEP file"},
-                                   Beginning{"blender"sv, "a Blender file"},
-                                   Beginning{"meshversionformatted"sv, "a Medit file"},
-                                   Beginning{"$meshformat"sv, "a Gmsh file"},
-                                   Beginning{"\x89hdf"sv, "an HDF5 file"},
-                                   Beginning{"matlab "sv, "a MATLAB file"},
-                                   Beginning{"%pdf"sv, "a PDF document"},
-                                   Beginning{"\x89png"sv, "a PNG picture"},
-                                   Beginning{"\xff\xd8\xff"sv, "a JPEG picture"},
-                                   Beginning{"gif8"sv, "a GIF picture"},
-                                   Beginning{"\x7f\x65lf"sv, "a program"},
-                                   Beginning{"<?xml"sv, "an XML file"}};
+constexpr std::array other_formats{Beginning{"gltf", "a binary glTF file"},
+                                   Beginning{"kaydara fbx", "an FBX file"},
+                                   Beginning{"; fbx", "an FBX file"},
+                                   Beginning{"#vrml", "a VRML file"},
+                                   Beginning{"#inventor", "an Open Inventor file"},
+                                   Beginning{"# vtk datafile", "a VTK file"},
+                                   Beginning{"iso-10303-21", "a STEP file"},
+                                   Beginning{"blender", "a Blender file"},
+                                   Beginning{"meshversionformatted", "a Medit file"},
+                                   Beginning{"$meshformat", "a Gmsh file"},
+                                   Beginning{"\x89hdf", "an HDF5 file"},
+                                   Beginning{"matlab ", "a MATLAB file"},
+                                   Beginning{"%pdf", "a PDF document"},
+                                   Beginning{"\x89png", "a PNG picture"},
+                                   Beginning{"\xff\xd8\xff", "a JPEG picture"},
+                                   Beginning{"gif8", "a GIF picture"},
+                                   Beginning{"\x7f\x65lf", "a program"},
+                                   Beginning{"<?xml", "an XML file"}};
 
-constexpr std::array web_pages{"<!doctype html"sv, "<html"sv, "<head"sv, "<!--"sv};
+constexpr std::array<std::string_view, 4> web_pages{"<!doctype html", "<html", "<head", "<!--"};
 
 /// Words with which OBJ files begin, comments apart.
-constexpr std::array obj_words{"v"sv, "vn"sv, "vt"sv, "o"sv, "g"sv, "mtllib"sv, "usemtl"sv};
+constexpr std::array<std::string_view, 7> obj_words{"v", "vn", "vt", "o", "g", "mtllib", "usemtl"};
 
 std::string lower_case_beginning(std::string_view bytes) {
     constexpr std::size_t looked_at = 512;
@@ -87,7 +85,8 @@ std::optional<std::string> not_a_mesh(std::string_view bytes, std::string_view b
     if (std::any_of(web_pages.begin(), web_pages.end(),
                     [&](std::string_view page) { return beginning.starts_with(page); }))
         return "a web page, not a mesh; download the mesh again";
-    if (bytes.starts_with("\xff\xfe\0\0"sv) || bytes.starts_with("\0\0\xfe\xff"sv))
+    if (bytes.starts_with(std::string_view("\xff\xfe\0\0", 4)) ||
+        bytes.starts_with(std::string_view("\0\0\xfe\xff", 4)))
         return "text in UTF-32; save it as UTF-8";
     if (!bytes.empty() && bytes.find_first_not_of('\0') == std::string_view::npos)
         return "nothing but zeros, as after a copy that was cut short; copy the mesh again";
@@ -102,6 +101,9 @@ std::optional<std::string> foreign_content(std::string_view bytes, std::string_v
     if (std::optional<std::string> what = not_a_mesh(bytes, beginning)) return what;
     if (std::optional<std::string> what = named(beginning, packed, unpack)) return what;
     if (std::optional<std::string> what = named(beginning, other_formats, convert)) return what;
+    if (beginning.starts_with("<")) return "text in XML or HTML, not a mesh; download the mesh again";
+    if (beginning.starts_with("{"))
+        return "text in JSON, perhaps of a server; download the mesh again, or convert it";
     const std::string_view found = mesh_format_of(bytes);
     if (found.empty() || found == format) return std::nullopt;
     const std::string article = found == "PLY" ? "a " : "an ";

@@ -29,11 +29,17 @@ class ObjReader {
     ParsedMesh run() {
         if (!cursor_.next_line()) cursor_.fail("the file is empty; export the mesh again");
         mesh_.offsets.push_back(0);
+        const TextCursor begin = cursor_;
         do {
             const std::string_view keyword = cursor_.word();
             if (keyword == "v") read_vertex();
             if (keyword == "f" || keyword == "fo") read_face();
         } while (cursor_.next_line());
+        if (vertex_count() == 0 && face_count() == 0) {
+            begin.fail(
+                "no line begins with 'v' or 'f' as the vertices and faces of an OBJ file do; export the "
+                "mesh again");
+        }
         if (highest_index_ >= vertex_count()) {
             cursor_.fail(bad_index(face_of_highest_index_, highest_index_, vertex_count()));
         }

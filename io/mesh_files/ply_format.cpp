@@ -69,6 +69,9 @@ class ValueSource {
 
     [[nodiscard]] std::int64_t line() const { return text_.line(); }
 
+    /// Whether anything but the end of a line follows.
+    bool goes_on() { return is_binary_ ? binary_.left() > 2 : !text_.word_on_any_line().empty(); }
+
   private:
     template <typename T>
     bool read_as(double& value) {
@@ -109,6 +112,10 @@ class PlyReader {
         }
         check_indices();
         ParsedMesh parsed = unusable_.left_out_of({std::move(mesh_), {}}, path_);
+        if (last == header_.elements.end() && source_.goes_on())
+            parsed.warnings.push_back(path_ +
+                                      ": the file goes on after the elements that its header promises; "
+                                      "what follows is left out");
         const std::optional<std::string> lost =
             has_single_precision() ? lost_digits(parsed.mesh) : std::nullopt;
         if (lost) parsed.warnings.push_back(path_ + ": " + *lost);

@@ -28,6 +28,8 @@ TEST(ForeignContent, FilesThatAreNoMeshes) {
     expect_named("/annex/objects/SHA256E-s1--0.off\n", "a git-annex pointer");
     expect_named("<!DOCTYPE html>\n<html><head><title>404 Not Found</title></head></html>\n", "a web page");
     expect_named("\xEF\xBB\xBF\n <HTML>\n", "a web page");
+    expect_named("<Error><Code>AccessDenied</Code></Error>", "text in XML or HTML");
+    expect_named("{\"message\": \"Not Found\"}", "text in JSON");
     expect_named("PK\x03\x04 something", "a ZIP archive");
     expect_named("\x1f\x8b\x08\x00 something"s, "a gzip archive");
     expect_named("glTF\x02\x00\x00\x00"s, "a binary glTF file");

@@ -57,6 +57,11 @@ TEST(ObjFormat, VerticesThatNoFaceUsesNeedNoNumbers) {
         << used.sentence;
 }
 
+TEST(ObjFormat, TextWithoutVerticesAndFacesIsNoObj) {
+    const test::Caught caught = test::error_of([] { read_obj("\n404: Not Found\n", "a.obj"); });
+    EXPECT_TRUE(caught.sentence.starts_with("a.obj:2: no line begins with 'v' or 'f'")) << caught.sentence;
+}
+
 TEST(ObjFormat, FacesOfNoCornersKeepTheirPlace) {
     EXPECT_EQ(read_obj(obj_points + "f\nf 1 2 3\nf # none\n", "a.obj").mesh.offsets,
               (std::vector<int>{0, 0, 3, 3}));

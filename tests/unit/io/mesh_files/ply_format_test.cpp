@@ -99,6 +99,17 @@ TEST(PlyFormat, WhatNobodyReadsMayBeAnything) {
         "a.ply"));
 }
 
+TEST(PlyFormat, WhatFollowsTheElementsIsLeftOutWithOneWarning) {
+    const std::string faces = "element face 4\nproperty list uchar int vertex_index\nend_header\n" +
+                              tetrahedron_points + "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    for (const std::string rest : {"", "\n \n", "0 1 2\n"}) {
+        const ParsedMesh parsed =
+            read_ply("ply\nformat ascii 1.0\n" + tetrahedron_vertices + faces + rest, "a.ply");
+        test::expect_tetrahedron({parsed.mesh, {}});
+        EXPECT_EQ(parsed.warnings.size(), rest == "0 1 2\n" ? 1U : 0U);
+    }
+}
+
 TEST(PlyFormat, FacesOfNoCornersKeepTheirPlace) {
     const PolygonMesh mesh =
         read_ply("ply\nformat ascii 1.0\n" + tetrahedron_vertices +
