@@ -5,21 +5,27 @@
 namespace coseg {
 namespace {
 
-using std::string_literals::operator""s;
+/// The whole literal, also behind a zero.
+template <std::size_t N>
+std::string with_zeros(const char (&literal)[N]) {
+    return std::string(literal, N - 1);
+}
 
 TEST(TextEncoding, Utf16BecomesUtf8) {
-    EXPECT_EQ(utf8_of_utf16("\xff\xfe"s + "a\0b\0"s), "ab");
-    EXPECT_EQ(utf8_of_utf16("\xfe\xff"s + "\0a\0b"s), "ab");
-    EXPECT_EQ(utf8_of_utf16("a\0b\0\n\0"s), "ab\n");
-    EXPECT_EQ(utf8_of_utf16("\xff\xfe\xe4\x00\xac\x20\x3d\xd8\x00\xde"s),
+    EXPECT_EQ(utf8_of_utf16(with_zeros("\xff\xfe") + with_zeros("a\0b\0")), "ab");
+    EXPECT_EQ(utf8_of_utf16(with_zeros("\xfe\xff") + with_zeros("\0a\0b")), "ab");
+    EXPECT_EQ(utf8_of_utf16(with_zeros("a\0b\0\n\0")), "ab\n");
+    EXPECT_EQ(utf8_of_utf16(with_zeros("\xff\xfe\xe4\x00\xac\x20\x3d\xd8\x00\xde")),
               "\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80");
-    EXPECT_EQ(utf8_of_utf16("\xff\xfe\x3d\xd8"s + "a\0"s), "\xef\xbf\xbd"s + "a");
+    EXPECT_EQ(utf8_of_utf16(with_zeros("\xff\xfe\x3d\xd8") + with_zeros("a\0")),
+              with_zeros("\xef\xbf\xbd") + "a");
 }
 
 TEST(TextEncoding, OtherBytesAreNotTouched) {
     for (const std::string& bytes :
-         {""s, "a"s, "ab"s, "plain text"s, "\xef\xbb\xbf text"s, "\xff\xfe\0\0a\0\0\0"s, std::string(8, '\0'),
-          "\x01\0\x02\0\x03\0"s, "\xff\xd8\xff\xe0"s})
+         {with_zeros(""), with_zeros("a"), with_zeros("ab"), with_zeros("plain text"),
+          with_zeros("\xef\xbb\xbf text"), with_zeros("\xff\xfe\0\0a\0\0\0"), std::string(8, '\0'),
+          with_zeros("\x01\0\x02\0\x03\0"), with_zeros("\xff\xd8\xff\xe0")})
         EXPECT_EQ(utf8_of_utf16(bytes), std::nullopt);
 }
 

@@ -9,7 +9,11 @@
 namespace coseg {
 namespace {
 
-using std::string_literals::operator""s;
+/// The whole literal, also behind a zero.
+template <std::size_t N>
+std::string with_zeros(const char (&literal)[N]) {
+    return std::string(literal, N - 1);
+}
 
 /// What the sentence about such a file says it is, for every suffix.
 void expect_named(const std::string& bytes, const std::string& what, const std::string& own_format = "") {
@@ -31,11 +35,11 @@ TEST(ForeignContent, FilesThatAreNoMeshes) {
     expect_named("<Error><Code>AccessDenied</Code></Error>", "text in XML or HTML");
     expect_named("{\"message\": \"Not Found\"}", "text in JSON");
     expect_named("PK\x03\x04 something", "a ZIP archive");
-    expect_named("\x1f\x8b\x08\x00 something"s, "a gzip archive");
-    expect_named("glTF\x02\x00\x00\x00"s, "a binary glTF file");
+    expect_named(with_zeros("\x1f\x8b\x08\x00 something"), "a gzip archive");
+    expect_named(with_zeros("glTF\x02\x00\x00\x00"), "a binary glTF file");
     expect_named("# vtk DataFile Version 3.0\n", "a VTK file");
     expect_named(std::string(500, '\0'), "nothing but zeros");
-    expect_named("\xff\xfe\0\0v\0\0\0 \0\0\0"s, "text in UTF-32");
+    expect_named(with_zeros("\xff\xfe\0\0v\0\0\0 \0\0\0"), "text in UTF-32");
 }
 
 TEST(ForeignContent, MeshesUnderAnotherSuffix) {
