@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -9,6 +10,7 @@
 
 #include "mpi_drivers/describe/collection_log.hpp"
 #include "mpi_drivers/describe/kept_description.hpp"
+#include "mpi_drivers/process/self_launch.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -202,7 +204,10 @@ void share_facts(const Comm& comm, Collection& collection, int oversegmentations
 std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::string>& inputs) {
     std::vector<MeshEntry> entries;
     agree(comm, [&] {
-        if (comm.is_root()) entries = expand_mesh_list(inputs);
+        if (!comm.is_root()) return;
+        std::vector<std::string> reachable;
+        std::transform(inputs.begin(), inputs.end(), std::back_inserter(reachable), reachable_list);
+        entries = expand_mesh_list(reachable);
     });
     broadcast(comm, entries);
     return entries;

@@ -7,10 +7,11 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
-#include <iterator>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace coseg {
@@ -61,14 +62,6 @@ bool asks_for_help(const std::vector<std::string_view>& words) {
                        [](std::string_view w) { return w == "--help" || w == "-h"; });
 }
 
-/// A list of meshes that the shell hands over as an open pipe, as in @<(find ...), does not reach the ranks:
-/// mpirun closes what it does not know. It keeps the pipe itself, under the number of this process.
-std::string as_ranks_see_it(std::string_view word) {
-    constexpr std::string_view open_file = "@/dev/fd/";
-    if (!word.starts_with(open_file)) return std::string(word);
-    return "@/proc/" + std::to_string(getpid()) + "/fd/" + std::string(word.substr(open_file.size()));
-}
-
 /// On one machine: more ranks than Open MPI counts cores are fine, none is tied to a core that another
 /// program uses, and who is root has decided so already.
 void prepare_environment() {
@@ -90,12 +83,22 @@ void launch_on_all_cores(int argc, char** argv) {
     if (readlink("/proc/self/exe", self.data(), self.size() - 1) <= 0) return;
     std::vector<std::string> line = {COSEG_MPIEXEC, "--quiet", "--oversubscribe",     "--bind-to",
                                      "none",        "-n",      std::to_string(ranks), self.data()};
-    std::transform(words.begin(), words.end(), std::back_inserter(line), as_ranks_see_it);
+    line.insert(line.end(), words.begin(), words.end());
     std::vector<char*> pointers;
     for (std::string& word : line) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     prepare_environment();
     execvp(pointers.front(), pointers.data());  // returns only where there is no mpirun
+}
+
+std::string reachable_list(const std::string& argument) {
+    constexpr std::string_view open_file = "@/dev/fd/";
+    if (!argument.starts_with(open_file)) return argument;
+    std::error_code ignored;
+    if (std::filesystem::exists(argument.substr(1), ignored)) return argument;
+    // mpirun, the parent of a rank on its machine, closes for the ranks what it does not know.
+    std::string kept = "@/proc/" + std::to_string(getppid()) + "/fd/" + argument.substr(open_file.size());
+    return std::filesystem::exists(kept.substr(1), ignored) ? kept : argument;
 }
 
 }  // namespace coseg

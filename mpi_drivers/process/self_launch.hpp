@@ -1,6 +1,8 @@
 #pragma once
 // Lets a run that was started without mpirun start itself again with it, with one rank a core.
 
+#include <string>
+
 namespace coseg {
 
 /// Call this before MPI is initialised. It replaces this process by `mpirun -n RANKS` with the same command
@@ -13,5 +15,10 @@ namespace coseg {
 /// is no number of ranks is left to the command line's own check. The results have the same bytes in both
 /// cases.
 void launch_on_all_cores(int argc, char** argv);
+
+/// The argument "@/dev/fd/N" for a list of meshes that the shell hands over as an open pipe, as in
+/// @<(find ...), in the form in which a rank can open it where mpirun has kept the pipe for itself; any other
+/// argument as it is.
+std::string reachable_list(const std::string& argument);
 
 }  // namespace coseg

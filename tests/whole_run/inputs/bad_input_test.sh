@@ -69,6 +69,9 @@ COSEG_RANKS=2 "$COSEG" run --quiet --parts 2 --patches 10 --geodesic-samples 40 
     || fail "a list from a pipe of the shell"
 [[ $(ls "$work/result/labels") == $'a.seg\nb.seg\nc.seg' ]] || fail "a list from a pipe of the shell is not read whole"
 rm -r "$work/result"
+run 2 @<(echo "$work/good") || fail "a list from a pipe that mpirun was given"
+[[ $(ls "$work/result/labels") == $'a.seg\nb.seg\nc.seg' ]] || fail "a list from a pipe that mpirun was given is not read whole"
+rm -r "$work/result"
 refuses "a bad entry of a folder (--strict)" 3 "dangling.off: is a link to nowhere.off" run 2 --strict "$work/mixed"
 echo "ok: mixed folder"
 
