@@ -50,33 +50,37 @@ class StepClock {
     Clock::time_point last_ = Clock::now();
 };
 
-void refine_if_coarse(TriMesh& mesh, MeshDescription& description, const std::string& path, int patches) {
+int even_faces(const TriMesh& mesh, int patches) {
+    return std::clamp(mesh.face_count(), patches * fewest_even_faces, patches * most_even_faces);
+}
+
+/// A mesh whose edges doubles cannot halve often enough keeps fewer faces than wanted.
+void refine_if_coarse(TriMesh& mesh, MeshDescription& description, const std::string& path, int patches,
+                      int faces_a_patch) {
     const int coarse = mesh.face_count();
-    const int wanted = patches * faces_per_patch;
+    const int wanted = patches * faces_a_patch;
     if (coarse >= wanted) return;
     refine_to_face_count(mesh, description.map, wanted);
+    if (mesh.face_count() == coarse) return;
     description.warnings.push_back(
         path + ": only " + std::to_string(coarse) + (coarse == 1 ? " triangle for " : " triangles for ") +
         std::to_string(patches) + " patches: refined internally to " + std::to_string(mesh.face_count()));
 }
 
-void remesh(TriMesh& mesh, MeshDescription& description, const std::string& path, int patches) {
-    const int faces = std::clamp(mesh.face_count(), patches * fewest_even_faces, patches * most_even_faces);
-    remesh_evenly(mesh, description.map, faces);
+/// False if the mesh cannot be remeshed; it then keeps its triangles.
+bool remesh_if_possible(TriMesh& mesh, MeshDescription& description, const std::string& path, int patches) {
+    try {
+        remesh_evenly(mesh, description.map, even_faces(mesh, patches));
+    } catch (const Error& error) {
+        description.warnings.push_back(path + ": cannot be remeshed: " + error.what());
+        return false;
+    }
     description.remeshed = true;
     description.warnings.push_back(
         path + ": " + percent(description.overlong_area, 0) +
         " of the area is in triangles too long for patches: remeshed internally to " +
         std::to_string(mesh.face_count()) + " even triangles");
-}
-
-/// A mesh that cannot be remeshed is still cut as well as its triangles allow.
-void remesh_if_possible(TriMesh& mesh, MeshDescription& description, const std::string& path, int patches) {
-    try {
-        remesh(mesh, description, path, patches);
-    } catch (const Error& error) {
-        description.warnings.push_back(path + ": cannot be remeshed, " + error.what());
-    }
+    return true;
 }
 
 TriMesh working_mesh(MeshDescription& description, const std::string& path,
@@ -86,11 +90,13 @@ TriMesh working_mesh(MeshDescription& description, const std::string& path,
                                 repaired.warnings.end());
     description.map = std::move(repaired.map);
     description.overlong_area = overlong_area_share(repaired.mesh, options.patches);
-    const bool unsuitable = description.overlong_area > most_overlong_area;
-    if (options.remesh == RemeshMode::always) remesh(repaired.mesh, description, path, options.patches);
-    if (options.remesh == RemeshMode::automatic && unsuitable)
-        remesh_if_possible(repaired.mesh, description, path, options.patches);
-    refine_if_coarse(repaired.mesh, description, path, options.patches);
+    const bool is_unsuitable = description.overlong_area > most_overlong_area;
+    int faces_a_patch = faces_per_patch;
+    if (options.remesh == RemeshMode::always || (options.remesh == RemeshMode::automatic && is_unsuitable)) {
+        const bool is_even = remesh_if_possible(repaired.mesh, description, path, options.patches);
+        if (!is_even && is_unsuitable) faces_a_patch = fewest_even_faces;
+    }
+    refine_if_coarse(repaired.mesh, description, path, options.patches, faces_a_patch);
     scale_to_unit_area(repaired.mesh);
     return std::move(repaired.mesh);
 }

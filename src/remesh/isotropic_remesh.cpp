@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -112,20 +113,39 @@ class Remesher {
         return mesh;
     }
 
-    void run(const SurfaceProjection& project, const LineProjection& project_line) {
+    /// The mesh after the last round, or within the limits that of the round with the fewest faces.
+    TriMesh run(const SurfaceProjection& project, const LineProjection& project_line) {
+        std::optional<TriMesh> fewest;
+        int before = std::numeric_limits<int>::max();
         for (int round = 0; round < options_.iterations; ++round) {
             want_lengths();
-            split_long_edges();
+            if (!split_long_edges()) return within_limits(fewest);
             collapse_short_edges();
             kernel_.garbage_collection();
             flip_edges(project);
             relax(project, project_line);
+            if (face_count() > options_.most_faces && face_count() > before) return within_limits(fewest);
+            before = face_count();
+            if (is_limited() && before <= options_.most_faces && (!fewest || before < fewest->face_count())) {
+                fewest = from_kernel(kernel_);
+            }
         }
+        return face_count() <= options_.most_faces ? from_kernel(kernel_) : within_limits(fewest);
     }
 
-    [[nodiscard]] TriMesh mesh() const { return from_kernel(kernel_); }
-
   private:
+    [[nodiscard]] int face_count() const { return static_cast<int>(kernel_.n_faces()); }
+
+    [[nodiscard]] bool is_limited() const {
+        return std::min(options_.most_faces, options_.most_faces_at_once) < std::numeric_limits<int>::max();
+    }
+
+    [[nodiscard]] TriMesh within_limits(const std::optional<TriMesh>& fewest) const {
+        if (fewest) return *fewest;
+        throw Error(ExitCode::input, "even triangles of the wanted size would be more than " +
+                                         std::to_string(options_.most_faces));
+    }
+
     [[nodiscard]] Vector3d point_of(VertexHandle v) const { return from_point(kernel_.point(v)); }
 
     [[nodiscard]] bool is_line(EdgeHandle e) const { return kernel_.status(e).feature(); }
@@ -220,17 +240,20 @@ class Remesher {
         for (const VertexHandle v : kernel_.vertices()) kernel_.property(wanted_, v) = mean[v.idx()];
     }
 
-    void split_long_edges() {
+    /// False if there would be more faces than are allowed at once.
+    [[nodiscard]] bool split_long_edges() {
         constexpr int most_halvings = 12;
         for (int pass = 0, split = 1; pass < most_halvings && split > 0; ++pass) {
             split = 0;
             const int edges = static_cast<int>(kernel_.n_edges());
             for (int i = 0; i < edges; ++i) {
                 if (length(EdgeHandle(i)) <= 4.0 / 3.0 * wanted_length(EdgeHandle(i))) continue;
+                if (face_count() >= options_.most_faces_at_once) return false;
                 split_edge(EdgeHandle(i));
                 ++split;
             }
         }
+        return true;
     }
 
     void split_edge(EdgeHandle e) {
@@ -436,8 +459,7 @@ TriMesh isotropic_remesh(const TriMesh& mesh, const RemeshOptions& options,
     check_options(options);
     Remesher remesher(mesh, options);
     const LineProjection project_line = onto_lines_of(remesher);
-    remesher.run(project, project_line);
-    return remesher.mesh();
+    return remesher.run(project, project_line);
 }
 
 TriMesh isotropic_remesh(const TriMesh& mesh, const RemeshOptions& options) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 
 #include "src/mesh/tri_mesh.hpp"
 
@@ -15,6 +16,8 @@ struct RemeshOptions {
     /// as on thin limbs and rims. With 1 the length is the same everywhere.
     double smallest_share = 1.0;
     double sharp_angle = 3.15;  ///< radians; edges that turn by more are kept (above pi: none)
+    int most_faces = std::numeric_limits<int>::max();          ///< of the result
+    int most_faces_at_once = std::numeric_limits<int>::max();  ///< while edges are split
 };
 
 /// Gives the point of the surface near `point` to which a relaxed vertex is moved; `normal` is the mesh's
@@ -28,8 +31,13 @@ double edge_length_for(double area, int faces);
 /// Remeshes a manifold mesh. It splits edges longer than 4/3 and collapses edges shorter than 4/5 of the
 /// wanted length, flips edges so that vertices have six neighbours, moves vertices tangentially to even out
 /// areas, and projects them onto the surface. The topology is kept. Boundaries and sharp edges stay: their
-/// vertices move along them only, and corners do not move. Deterministic. Throws Error(input) if the mesh is
-/// not manifold or edge_length <= 0.
+/// vertices move along them only, and corners do not move. Deterministic.
+///
+/// Time and memory are bounded by most_faces_at_once and the number of rounds, whatever the ratio of lengths in
+/// the mesh. A round that would pass it ends the rounds, and so does one that leaves more than most_faces and
+/// more than the round before. If the last round left too many faces, the result is that of the round that
+/// left the fewest. Throws Error(input) if no round stays within both limits, if the mesh is not manifold, or
+/// if edge_length <= 0.
 /// Source: Botsch, Kobbelt 2004, "A remeshing approach to multiresolution modeling", section 4.
 TriMesh isotropic_remesh(const TriMesh& mesh, const RemeshOptions& options, const SurfaceProjection& project);
 

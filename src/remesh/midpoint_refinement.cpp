@@ -6,7 +6,6 @@
 #include <tuple>
 #include <vector>
 
-#include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/mesh/edge_groups.hpp"
 
@@ -30,17 +29,16 @@ class EdgeSplitter {
 
     [[nodiscard]] int face_count() const { return static_cast<int>(faces_.size()); }
 
-    void split_longest(std::vector<int>& input_face) {
+    /// False if the longest edge has no middle between its ends in double precision.
+    bool split_longest(std::vector<int>& input_face) {
         const int h = take_longest();
         const int other = twin_[at(h)];
         const int middle = static_cast<int>(vertices_.size());
-        vertices_.emplace_back(0.5 * (vertices_[at(start(h))] + vertices_[at(start(next(h)))]));
-        if (vertices_.back() == vertices_[at(start(h))] ||
-            vertices_.back() == vertices_[at(start(next(h)))]) {
-            throw Error(ExitCode::input,
-                        "the mesh cannot be refined further: its longest edge is as short as rounding; scale "
-                        "or move it nearer to the origin");
-        }
+        const Vector3d& a = vertices_[at(start(h))];
+        const Vector3d& b = vertices_[at(start(next(h)))];
+        const Vector3d between = 0.5 * (a + b);
+        if (between == a || between == b) return false;
+        vertices_.push_back(between);
         const int far_half = split_face(h, middle, input_face);
         if (other < 0) {
             twin_[at(h)] = twin_[at(far_half)] = -1;
@@ -55,6 +53,7 @@ class EdgeSplitter {
             offer_face(other / 3);
             offer_face(twin_[at(h)] / 3);
         }
+        return true;
     }
 
     void write_to(TriMesh& mesh) const {
@@ -153,7 +152,9 @@ class EdgeSplitter {
 void refine_to_face_count(TriMesh& mesh, FaceMap& map, int minimum_faces) {
     if (mesh.face_count() == 0 || mesh.face_count() >= minimum_faces) return;
     EdgeSplitter splitter(mesh);
-    while (splitter.face_count() < minimum_faces) splitter.split_longest(map.input_face);
+    while (splitter.face_count() < minimum_faces) {
+        if (!splitter.split_longest(map.input_face)) break;
+    }
     splitter.write_to(mesh);
 }
 

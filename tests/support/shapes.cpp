@@ -103,6 +103,26 @@ TriMesh box(double x, double y, double z, int cells) {
     return from_lists(points, triangles);
 }
 
+TriMesh prism(double radius, double height, int sides) {
+    TriMesh mesh;
+    mesh.vertices.resize(3, 2 * sides);
+    mesh.faces.resize(3, 4 * sides - 4);
+    int face = 0;
+    for (int i = 0; i < sides; ++i) {
+        const double angle = 2.0 * M_PI * i / sides;
+        mesh.vertices.col(i) << radius * std::cos(angle), radius * std::sin(angle), 0.0;
+        mesh.vertices.col(sides + i) << radius * std::cos(angle), radius * std::sin(angle), height;
+        const int j = (i + 1) % sides;
+        mesh.faces.col(face++) << i, j, sides + j;
+        mesh.faces.col(face++) << i, sides + j, sides + i;
+    }
+    for (int i = 1; i + 1 < sides; ++i) {
+        mesh.faces.col(face++) << 0, i + 1, i;
+        mesh.faces.col(face++) << sides, sides + i, sides + i + 1;
+    }
+    return mesh;
+}
+
 TriMesh torus(double major_radius, double minor_radius, int nu, int nv) {
     std::vector<Eigen::Vector3d> points;
     std::vector<Eigen::Vector3i> triangles;

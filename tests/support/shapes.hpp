@@ -13,6 +13,9 @@ TriMesh sphere(int levels, double radius = 1.0);
 /// A closed box [0,x] x [0,y] x [0,z], each side a grid of about `cells` cells along its longest edge.
 TriMesh box(double x, double y, double z, int cells);
 
+/// A right prism over an even polygon: two fans of `sides` - 2 triangles and `sides` walls of two each.
+TriMesh prism(double radius, double height, int sides);
+
 /// A torus with nu x nv quads split in two.
 TriMesh torus(double major_radius, double minor_radius, int nu, int nv);
 

@@ -67,6 +67,18 @@ TEST(MidpointRefinement, TrianglesBecomeEven) {
     }
 }
 
+TEST(MidpointRefinement, EndsWhereDoublesHaveNoMiddle) {
+    TriMesh mesh = test::box(1, 1, 1, 1);
+    mesh.vertices *= 8.0;
+    mesh.vertices.array() += 0x1p54;  // neighbouring doubles differ by 4 there
+    FaceMap map = test::identity_map(mesh.face_count());
+    refine_to_face_count(mesh, map, 10000);
+    EXPECT_GT(mesh.face_count(), 12);
+    EXPECT_LT(mesh.face_count(), 200);
+    EXPECT_EQ(static_cast<int>(map.input_face.size()), mesh.face_count());
+    EXPECT_EQ(test::manifold_defect(mesh), "");
+}
+
 TEST(MidpointRefinement, FineMeshesStayAsTheyAre) {
     TriMesh mesh = test::sphere(2);
     FaceMap map = test::identity_map(mesh.face_count());
