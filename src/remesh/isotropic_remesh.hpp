@@ -29,16 +29,16 @@ using SurfaceProjection =
 double edge_length_for(double area, int faces);
 
 /// Remeshes a manifold mesh. It splits edges longer than 4/3 and collapses edges shorter than 4/5 of the
-/// wanted length, flips edges so that vertices have six neighbours, moves vertices tangentially to even out
-/// areas, and projects them onto the surface. The topology is kept. Boundaries and sharp edges stay: their
-/// vertices move along them only, and corners do not move. Deterministic.
+/// wanted length, flips edges so that vertices have six neighbours, moves vertices tangentially to even
+/// out areas, and projects them onto the surface. The topology is kept. Boundaries and sharp edges stay:
+/// their vertices move along them only, and corners do not move. Deterministic.
 ///
-/// Time and memory are bounded by most_faces_at_once and the number of rounds, whatever the ratio of lengths in
-/// the mesh. A round that would pass it ends the rounds, and so does one that leaves more than most_faces and
-/// more than the round before. If the last round left too many faces, the result is that of the round that
-/// left the fewest. Throws Error(input) if no round stays within both limits, if the mesh is not manifold, or
-/// if edge_length <= 0.
-/// Source: Botsch, Kobbelt 2004, "A remeshing approach to multiresolution modeling", section 4.
+/// Time and memory are bounded by most_faces_at_once and the number of rounds, whatever the ratio of
+/// lengths in the mesh. A round that would pass it ends the rounds, and so does one that leaves more than
+/// most_faces and more than the round before. If the last round left too many faces, the result is that
+/// of the round that left the fewest. Throws Error(input) if no round stays within both limits, if the
+/// mesh is not manifold, or if edge_length <= 0. Source: Botsch, Kobbelt 2004, "A remeshing approach to
+/// multiresolution modeling", section 4.
 TriMesh isotropic_remesh(const TriMesh& mesh, const RemeshOptions& options, const SurfaceProjection& project);
 
 /// The same, with the triangles of the input as the surface, and its sharp edges and boundary as the lines.

@@ -31,8 +31,8 @@ std::vector<int> nearest_new_face(const FaceMap& map, const TriMesh& before, con
     return of_input;
 }
 
-/// Edges are halved in the order of their numbers, which makes of needles many more triangles than are needed,
-/// to be collapsed again. Where that passes the budget, needles are first cut into strips.
+/// Edges are halved in the order of their numbers, which makes of needles many more triangles than are
+/// needed, to be collapsed again. Where that passes the budget, needles are first cut into strips.
 TriMesh even_triangles(const TriMesh& mesh, double edge_length, int faces) {
     const RemeshOptions options{
         .edge_length = edge_length,
@@ -43,8 +43,7 @@ TriMesh even_triangles(const TriMesh& mesh, double edge_length, int faces) {
     try {
         return isotropic_remesh(mesh, options);
     } catch (const Error&) {
-        const std::optional<TriMesh> finer =
-            cut_into_strips(mesh, edge_length, options.most_faces_at_once);
+        const std::optional<TriMesh> finer = cut_into_strips(mesh, edge_length, options.most_faces_at_once);
         if (!finer) throw;
         return isotropic_remesh(*finer, options);
     }
