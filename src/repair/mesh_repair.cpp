@@ -1,6 +1,7 @@
 #include "src/repair/mesh_repair.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "src/base/error.hpp"
@@ -10,6 +11,7 @@
 #include "src/repair/degenerate_faces.hpp"
 #include "src/repair/label_donor_faces.hpp"
 #include "src/repair/manifold_cut.hpp"
+#include "src/repair/outlying_vertices.hpp"
 
 namespace coseg {
 
@@ -94,6 +96,16 @@ int count_unused(const PolygonMesh& input) {
     return static_cast<int>(std::count(used.begin(), used.end(), 0));
 }
 
+std::vector<char> faces_with_triangles(const WorkingTriangles& working, int input_faces) {
+    std::vector<char> has_triangle(at(input_faces), 0);
+    for (const int f : working.input_face) has_triangle[at(f)] = 1;
+    return has_triangle;
+}
+
+int count_lost(const std::vector<char>& has_triangle) {
+    return static_cast<int>(std::count(has_triangle.begin(), has_triangle.end(), 0));
+}
+
 class Warnings {
   public:
     explicit Warnings(const std::string& name) : name_(name) {}
@@ -108,14 +120,25 @@ class Warnings {
     std::vector<std::string> sentences_;
 };
 
-std::vector<std::string> describe(const std::string& name, int unused, int welded, int faces_without_area,
+/// What was done before the surface was cut to a manifold.
+struct RepairCounts {
+    int unused = 0;
+    int welded = 0;
+    int faces_without_area = 0;
+    int outlying = 0;
+};
+
+std::vector<std::string> describe(const std::string& name, const RepairCounts& counts,
                                   const ManifoldCut& cut) {
     Warnings warnings(name);
-    warnings.add(unused, "vertex belongs to no face and is left out",
+    warnings.add(counts.unused, "vertex belongs to no face and is left out",
                  "vertices belong to no face and are left out");
-    warnings.add(welded, "repeated vertex is welded", "repeated vertices are welded");
-    warnings.add(faces_without_area, "face without area takes the part of a neighbour",
+    warnings.add(counts.welded, "repeated vertex is welded", "repeated vertices are welded");
+    warnings.add(counts.faces_without_area, "face without area takes the part of a neighbour",
                  "faces without area take the part of a neighbour");
+    warnings.add(counts.outlying,
+                 "vertex lies far away from the shape; its faces take the part of a neighbour",
+                 "vertices lie far away from the shape; their faces take the part of a neighbour");
     warnings.add(cut.crowded_edges, "edge has three or more faces and is cut",
                  "edges have three or more faces and are cut");
     warnings.add(cut.unorientable_edges, "edge joins faces that cannot be oriented alike and is cut",
@@ -127,29 +150,52 @@ std::vector<std::string> describe(const std::string& name, int unused, int welde
     return warnings.take();
 }
 
-}  // namespace
+/// Of the largest coordinate, as a power of two, if the squares of lengths leave the range of doubles; else 0.
+int extreme_exponent(const PolygonMesh& input) {
+    constexpr double largest = 1e100;
+    double reach = 0.0;
+    for (const Vector3d& p : input.vertices) reach = std::max(reach, p.lpNorm<Eigen::Infinity>());
+    if (reach == 0.0 || (reach <= largest && reach >= 1.0 / largest)) return 0;
+    return std::ilogb(reach);
+}
 
-RepairedMesh repair(const PolygonMesh& input, const std::string& name) {
-    check_input(input, name);
+PolygonMesh scaled(PolygonMesh mesh, int exponent) {
+    for (Vector3d& p : mesh.vertices) p = p.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+    return mesh;
+}
+
+RepairedMesh repair_moderate(const PolygonMesh& input, const std::string& name) {
     const std::vector<int> vertex_of = weld_vertices(input);
     WorkingTriangles working = triangulate(input, vertex_of);
+    RepairCounts counts{.unused = count_unused(input), .welded = count_welded(vertex_of)};
+    const int without_triangle = count_lost(faces_with_triangles(working, input.face_count()));
+    counts.outlying = remove_outlying(working, input.vertices);
+    const int lost_to_spikes =
+        count_lost(faces_with_triangles(working, input.face_count())) - without_triangle;
     remove_degenerate(working, input.vertices);
     if (working.triangles.empty()) {
         throw Error(ExitCode::input, name + ": no face has an area; check the coordinates and the faces");
     }
-    std::vector<char> has_working_face(at(input.face_count()), 0);
-    for (const int f : working.input_face) has_working_face[at(f)] = 1;
+    const std::vector<char> has_triangle = faces_with_triangles(working, input.face_count());
+    counts.faces_without_area = count_lost(has_triangle) - lost_to_spikes;
 
     RepairedMesh result;
     result.map.input_faces = input.face_count();
-    result.map.label_donor = label_donor_faces(input, vertex_of, has_working_face);
+    result.map.label_donor = label_donor_faces(input, vertex_of, has_triangle);
     const ManifoldCut cut = cut_to_manifold(working.triangles, input.vertices);
     result.mesh = to_mesh(input, cut);
     result.map.input_face = std::move(working.input_face);
-    const auto without_area =
-        static_cast<int>(std::count(has_working_face.begin(), has_working_face.end(), 0));
-    result.warnings = describe(name, count_unused(input), count_welded(vertex_of), without_area, cut);
+    result.warnings = describe(name, counts, cut);
     return result;
+}
+
+}  // namespace
+
+RepairedMesh repair(const PolygonMesh& input, const std::string& name) {
+    check_input(input, name);
+    const int exponent = extreme_exponent(input);
+    if (exponent == 0) return repair_moderate(input, name);
+    return repair_moderate(scaled(input, -exponent), name);
 }
 
 }  // namespace coseg
