@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <variant>
 
 #include "io/files/file_contents.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
@@ -126,6 +127,17 @@ void cut_into_patches(MeshDescription& description, const TriMesh& mesh, const D
     clock.end_of("relations");
 }
 
+/// One mesh whose lengths leave the range of numbers must not end the run of all others.
+void refuse_if_not_finite(const FaceDescriptors& descriptors, const std::string& path) {
+    for (const FaceDescriptor& descriptor : descriptors) {
+        const auto is_finite = [](const auto& values) { return values.allFinite(); };
+        if (std::visit(is_finite, descriptor.values)) continue;
+        throw Error(ExitCode::input, path +
+                                         ": a descriptor is not a finite number; the ratio of the mesh's "
+                                         "lengths is beyond what numbers hold");
+    }
+}
+
 /// All but the patches; returns the working mesh.
 TriMesh describe_surface(DescribedMesh& described, int number, const std::string& name,
                          const std::string& path, std::string_view bytes, const DescriptionOptions& options) {
@@ -146,6 +158,7 @@ TriMesh describe_surface(DescribedMesh& described, int number, const std::string
                               hash_words({options.seed, mesh.key}),
                               [&clock](const char* step) { clock.end_of(step); });
     described.descriptors = face_descriptors(context, options.descriptors);
+    refuse_if_not_finite(described.descriptors, path);
     return working;
 }
 

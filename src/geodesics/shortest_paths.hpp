@@ -31,9 +31,9 @@ using PathLanes = Eigen::Array<float, path_lanes, 1>;
 
 /// Distances of every node from path_lanes starting points. sources[l] belong to lane l; an empty list leaves
 /// its lane at infinity. Every node is relaxed for all lanes at once, in sweeps along `order` from the far
-/// end to the near one and back, until nothing changes. `order` lists all nodes that can be reached, by their
-/// distance from a point near the starting points. Few sweeps are needed where the starting points lie close
-/// together. The result does not depend on `order`.
+/// end to the near one and back, until nothing changes or single searches would be faster. `order` lists all
+/// nodes that can be reached, by their distance from a point near the starting points. Few sweeps are needed
+/// where the starting points lie close together. The result does not depend on `order`.
 void path_distances(const SurfaceGraph& graph, std::span<const std::vector<PathSource>, path_lanes> sources,
                     std::span<const int> order, std::vector<PathLanes>& distance);
 

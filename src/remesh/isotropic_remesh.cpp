@@ -248,12 +248,22 @@ class Remesher {
             const int edges = static_cast<int>(kernel_.n_edges());
             for (int i = 0; i < edges; ++i) {
                 if (length(EdgeHandle(i)) <= 4.0 / 3.0 * wanted_length(EdgeHandle(i))) continue;
+                if (!has_middle(EdgeHandle(i))) continue;
                 if (face_count() >= options_.most_faces_at_once) return false;
                 split_edge(EdgeHandle(i));
                 ++split;
             }
         }
         return true;
+    }
+
+    /// False where doubles have no point between the ends, as far from the origin.
+    [[nodiscard]] bool has_middle(EdgeHandle e) const {
+        const HalfedgeHandle h = kernel_.halfedge_handle(e, 0);
+        const Vector3d a = point_of(kernel_.from_vertex_handle(h));
+        const Vector3d b = point_of(kernel_.to_vertex_handle(h));
+        const Vector3d middle = 0.5 * (a + b);
+        return middle != a && middle != b;
     }
 
     void split_edge(EdgeHandle e) {

@@ -1,8 +1,10 @@
 #include "src/remesh/mapped_remesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,19 @@ std::vector<int> nearest_new_face(const FaceMap& map, const TriMesh& before, con
     return of_input;
 }
 
+/// Remeshing visits all neighbours of a vertex once for each of them.
+void refuse_crowded_vertices(const TriMesh& mesh) {
+    constexpr double always_allowed = 1e7;
+    constexpr double allowed_per_vertex = 400.0;
+    std::vector<double> triangles(at(mesh.vertex_count()), 0.0);
+    for (const int v : mesh.faces.reshaped()) triangles[at(v)] += 1.0;
+    double visits = 0.0;
+    for (const double count : triangles) visits += count * count;
+    if (visits <= always_allowed + allowed_per_vertex * mesh.vertex_count()) return;
+    const double most = *std::max_element(triangles.begin(), triangles.end());
+    throw Error(ExitCode::input, std::to_string(std::llround(most)) + " triangles meet at one vertex");
+}
+
 /// Edges are halved in the order of their numbers, which makes of needles many more triangles than are
 /// needed, to be collapsed again. Where that passes the budget, needles are first cut into strips.
 TriMesh even_triangles(const TriMesh& mesh, double edge_length, int faces) {
@@ -54,6 +69,7 @@ TriMesh even_triangles(const TriMesh& mesh, double edge_length, int faces) {
 void remesh_evenly(TriMesh& mesh, FaceMap& map, int faces) {
     const double area = face_geometry(mesh).total_area;
     if (!(area > 0.0)) throw Error(ExitCode::input, "a mesh without area cannot be remeshed");
+    refuse_crowded_vertices(mesh);
     TriMesh even = even_triangles(mesh, edge_length_for(area, faces), faces);
     std::vector<int> input_face;
     for (const int old : nearest_faces(even, mesh)) input_face.push_back(map.input_face[at(old)]);

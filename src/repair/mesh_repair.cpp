@@ -150,7 +150,8 @@ std::vector<std::string> describe(const std::string& name, const RepairCounts& c
     return warnings.take();
 }
 
-/// Of the largest coordinate, as a power of two, if the squares of lengths leave the range of doubles; else 0.
+/// Of the largest coordinate, as a power of two, if the squares of lengths leave the range of doubles; else
+/// 0.
 int extreme_exponent(const PolygonMesh& input) {
     constexpr double largest = 1e100;
     double reach = 0.0;

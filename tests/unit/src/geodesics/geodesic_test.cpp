@@ -204,6 +204,29 @@ TEST(GeodesicTable, LanesHaveTheBitsOfSingleSearches) {
     expect_rows_of_single_searches(test::box(10, 0.3, 0.1, 60), 20);
 }
 
+TEST(GeodesicTable, PathsThatWindAgainstTheOrderHaveTheBitsOfSingleSearches) {
+    constexpr int nodes = 4000;
+    SurfaceGraph chain{.vertex_count = nodes, .offsets = {0}, .arcs = {}};
+    for (int v = 0; v < nodes; ++v) {
+        if (v > 0) chain.arcs.push_back({v - 1, 1.0F / static_cast<float>(v)});
+        if (v + 1 < nodes) chain.arcs.push_back({v + 1, 1.0F / static_cast<float>(v + 1)});
+        chain.offsets.push_back(static_cast<int>(chain.arcs.size()));
+    }
+    std::vector<int> order(nodes);  // strides through the chain: a pass gets few nodes further
+    for (int v = 0; v < nodes; ++v) order[static_cast<std::size_t>(v)] = (v * 1597) % nodes;
+    std::array<std::vector<PathSource>, path_lanes> sources;
+    for (int lane = 0; lane + 1 < path_lanes; ++lane)
+        sources[static_cast<std::size_t>(lane)] = {{lane * 200, 0.25F}, {nodes - 1, 9.0F}};
+    std::vector<PathLanes> distance;
+    path_distances(chain, sources, order, distance);
+    for (int lane = 0; lane < path_lanes; ++lane) {
+        std::vector<float> single(nodes, std::numeric_limits<float>::infinity());
+        lower_distances(chain, sources[static_cast<std::size_t>(lane)], single);
+        for (int v = 0; v < nodes; ++v)
+            ASSERT_EQ(distance[static_cast<std::size_t>(v)][lane], single[static_cast<std::size_t>(v)]);
+    }
+}
+
 TEST(GeodesicTable, MeasuredMeshHasTheBitsOfSingleSearches) {
     const std::filesystem::path path = test::data_folder() / "psb_airplane" / "61.off";
     if (!std::filesystem::exists(path))
