@@ -8,6 +8,7 @@
 #include "src/base/index.hpp"
 #include "src/mesh/polygon_triangulation.hpp"
 #include "src/mesh/vertex_welding.hpp"
+#include "src/repair/border_welding.hpp"
 #include "src/repair/degenerate_faces.hpp"
 #include "src/repair/label_donor_faces.hpp"
 #include "src/repair/manifold_cut.hpp"
@@ -124,6 +125,7 @@ class Warnings {
 struct RepairCounts {
     int unused = 0;
     int welded = 0;
+    int near = 0;
     int faces_without_area = 0;
     int outlying = 0;
 };
@@ -134,6 +136,8 @@ std::vector<std::string> describe(const std::string& name, const RepairCounts& c
     warnings.add(counts.unused, "vertex belongs to no face and is left out",
                  "vertices belong to no face and are left out");
     warnings.add(counts.welded, "repeated vertex is welded", "repeated vertices are welded");
+    warnings.add(counts.near, "vertex on borders that nearly touch is welded",
+                 "vertices on borders that nearly touch are welded");
     warnings.add(counts.faces_without_area, "face without area takes the part of a neighbour",
                  "faces without area take the part of a neighbour");
     warnings.add(counts.outlying,
@@ -166,9 +170,10 @@ PolygonMesh scaled(PolygonMesh mesh, int exponent) {
 }
 
 RepairedMesh repair_moderate(const PolygonMesh& input, const std::string& name) {
-    const std::vector<int> vertex_of = weld_vertices(input);
+    const std::vector<int> equal = weld_vertices(input);
+    const auto [vertex_of, near_count] = weld_near_borders(input, equal);
     WorkingTriangles working = triangulate(input, vertex_of);
-    RepairCounts counts{.unused = count_unused(input), .welded = count_welded(vertex_of)};
+    RepairCounts counts{.unused = count_unused(input), .welded = count_welded(equal), .near = near_count};
     const int without_triangle = count_lost(faces_with_triangles(working, input.face_count()));
     counts.outlying = remove_outlying(working, input.vertices);
     const int lost_to_spikes =
