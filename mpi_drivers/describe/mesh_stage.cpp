@@ -196,7 +196,7 @@ void share_facts(const Comm& comm, Collection& collection, int oversegmentations
         std::copy(mesh.patch_counts.begin(), mesh.patch_counts.end(),
                   counts.begin() + std::ptrdiff_t{mesh.mesh} * oversegmentations);
     }
-    collection.numbering = {oversegmentations, std::move(counts)};
+    collection.numbering = {oversegmentations, counts};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "mpi_drivers/partition/partition_stage.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "mpi_drivers/optimise/solution_output.hpp"
@@ -27,14 +28,22 @@ void warn_of_degenerate_parts(const CutResult& cut, int parts, int meshes, const
                  " were found; ask for fewer parts, or for more patches with --patches");
     }
     if (!chosen.degenerate) return;
+    std::string named;
+    int kept = 0;
     for (int p = 0; p < chosen.parts_found; ++p) {
         const int in_meshes = cut.meshes_with_part[at(p)];
-        if (cut.part_share[at(p)] >= least_share && 2 * in_meshes >= meshes) continue;
-        log.warn("part " + std::to_string(p) + " has " + percent(cut.part_share[at(p)], 2) +
-                 " of the area and is in " + std::to_string(in_meshes) + " of " +
-                 with_unit(meshes, "shape", "shapes") + "; no partition into " + std::to_string(parts) +
-                 " parts without such a part was found; try --parts " + std::to_string(parts - 1));
+        if (cut.part_share[at(p)] >= least_share && 2 * in_meshes >= meshes) {
+            ++kept;
+            continue;
+        }
+        named += (named.empty() ? "part " : "; part ") + std::to_string(p) + " has " +
+                 percent(cut.part_share[at(p)], 2) + " of the area and is in " + std::to_string(in_meshes) +
+                 " of " + with_unit(meshes, "shape", "shapes");
     }
+    log.warn(std::to_string(parts) + " parts are asked for, but only " + std::to_string(kept) +
+             " are in half of the shapes and have half a percent of the area (" + named +
+             "); no partition without such parts was found; try --parts " +
+             std::to_string(std::max(2, kept)));
 }
 
 Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures features,

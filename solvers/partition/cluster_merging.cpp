@@ -18,7 +18,42 @@ struct Partial {
     ClusterSums sums;
     std::vector<int> group;  ///< of each cluster: its row in sums
     double value = 0.0;
+    Eigen::MatrixXd gain;  ///< of the union of a and b, symmetric; found once, as most unions leave it alone
 };
+
+double gain_of_union(const ClusterSums& sums, int a, int b) {
+    return value_of_part(sums, std::array{a, b}) - value_of_part(sums, std::array{a}) -
+           value_of_part(sums, std::array{b});
+}
+
+Partial all_alone(const ClusterSums& clusters) {
+    const int count = clusters.count();
+    Partial partial{clusters, std::vector<int>(at(count)), 0.0, Eigen::MatrixXd::Zero(count, count)};
+    std::iota(partial.group.begin(), partial.group.end(), 0);
+    for (int a = 0; a < count; ++a) {
+        partial.value += value_of_part(clusters, std::array{a});
+        for (int b = a + 1; b < count; ++b)
+            partial.gain(a, b) = partial.gain(b, a) = gain_of_union(clusters, a, b);
+    }
+    return partial;
+}
+
+/// a < b. As in unite(), the last takes the number b.
+Partial after_union(const Partial& before, int a, int b, double value) {
+    const int last = before.sums.count() - 1;
+    Partial after = before;
+    after.value = value;
+    unite(after.sums, a, b);
+    for (int& g : after.group) g = g == b ? a : (g == last ? b : g);
+    after.gain.row(b) = after.gain.row(last).eval();
+    after.gain.col(b) = after.gain.col(last).eval();
+    after.gain.conservativeResize(last, last);
+    for (int c = 0; c < last; ++c) {
+        if (c != a)
+            after.gain(a, c) = after.gain(c, a) = gain_of_union(after.sums, std::min(a, c), std::max(a, c));
+    }
+    return after;
+}
 
 struct Union {
     double value = 0.0;  ///< of all parts, after it
@@ -30,14 +65,9 @@ struct Union {
 std::vector<Union> all_unions(const std::vector<Partial>& partials) {
     std::vector<Union> unions;
     for (std::size_t p = 0; p < partials.size(); ++p) {
-        const ClusterSums& sums = partials[p].sums;
-        std::vector<double> value;
-        for (int a = 0; a < sums.count(); ++a) value.push_back(value_of_part(sums, std::array{a}));
-        for (int a = 0; a < sums.count(); ++a) {
-            for (int b = a + 1; b < sums.count(); ++b) {
-                const double together = value_of_part(sums, std::array{a, b});
-                unions.push_back({partials[p].value + together - value[at(a)] - value[at(b)], p, a, b});
-            }
+        for (int a = 0; a < partials[p].sums.count(); ++a) {
+            for (int b = a + 1; b < partials[p].sums.count(); ++b)
+                unions.push_back({partials[p].value + partials[p].gain(a, b), p, a, b});
         }
     }
     return unions;
@@ -56,9 +86,8 @@ std::vector<int> renumbered(const std::vector<int>& group) {
 }
 
 std::vector<int> group_after(const Partial& partial, int a, int b) {
-    const int last = partial.sums.count() - 1;
-    std::vector<int> group;
-    for (const int g : partial.group) group.push_back(g == b ? a : (g == last ? b : g));
+    std::vector<int> group = partial.group;
+    std::replace(group.begin(), group.end(), b, a);
     return group;
 }
 
@@ -71,10 +100,8 @@ std::vector<Partial> next_step(const std::vector<Partial>& partials, int beam) {
     std::vector<Partial> next;
     for (const Union& u : unions) {
         if (static_cast<int>(next.size()) == beam) break;
-        std::vector<int> group = group_after(partials[u.of], u.a, u.b);
-        if (!seen.insert(renumbered(group)).second) continue;
-        next.push_back({partials[u.of].sums, std::move(group), u.value});
-        unite(next.back().sums, u.a, u.b);
+        if (seen.insert(renumbered(group_after(partials[u.of], u.a, u.b))).second)
+            next.push_back(after_union(partials[u.of], u.a, u.b, u.value));
     }
     return next;
 }
@@ -182,12 +209,12 @@ class ClusterMoves {
 int merging_beam(int clusters) { return clusters < 30 ? 4 : 2; }
 
 std::vector<std::vector<int>> merge_clusters(const ClusterSums& clusters, int parts) {
-    std::vector<int> group(at(clusters.count()));
-    std::iota(group.begin(), group.end(), 0);
-    if (clusters.count() <= parts) return {group};
-    double value = 0.0;
-    for (int c = 0; c < clusters.count(); ++c) value += value_of_part(clusters, std::array{c});
-    std::vector<Partial> partials = {{clusters, group, value}};
+    if (clusters.count() <= parts) {
+        std::vector<int> same(at(clusters.count()));
+        std::iota(same.begin(), same.end(), 0);
+        return {same};
+    }
+    std::vector<Partial> partials = {all_alone(clusters)};
     const int beam = merging_beam(clusters.count());
     while (partials.front().sums.count() > parts) partials = next_step(partials, beam);
     std::vector<std::vector<int>> results;

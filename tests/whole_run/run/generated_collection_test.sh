@@ -52,3 +52,12 @@ for mesh in report["meshes"]:
 assert not report["set_aside"]
 END
 echo "ok: what a run writes"
+
+# More parts than four cups have: the run says how many are worth the name. With two it has nothing to say.
+"$COSEG" generate cup --count 4 --seed 3 --faces 2000 --out "$work/cups" >"$work/out"
+for parts in 2 8; do
+    ranks 2 "$COSEG" run --no-html --no-sheet --parts $parts --out "$work/cups/$parts" "$work/cups/meshes" >"$work/$parts.log" 2>&1
+done
+grep -q "8 parts are asked for, but only [2-7] are in half of the shapes" "$work/8.log" || fail "no warning: $(cat "$work/8.log")"
+grep -q "are asked for" "$work/2.log" && fail "a warning of parts that are none: $(cat "$work/2.log")"
+echo "ok: parts that are hardly any"
