@@ -41,6 +41,8 @@ void JsonPlace::set_typed(const std::string& text) const {
     set(std::string_view(text));
 }
 
+// The move constructor of the library's type is what may throw.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 struct JsonTree::Value {
     Json json;
 };

@@ -63,14 +63,14 @@ class Moves {
     }
 
     MovedPatches run(int rounds) {
-        std::vector<char> done(patches_.size(), 0);
+        std::vector<bool> done(patches_.size(), false);
         int moved = 0;
         for (int round = 0; round < rounds; ++round) {
             pooled_squares_ = weighted_squares(all_, objective_.pooled);
             std::vector<Move> moves;
             for (std::size_t m = 0; m < patches_.size(); ++m) {
-                const Move move = done[m] != 0 ? Move{} : best_move(m);
-                done[m] = move.patch < 0 ? 1 : 0;
+                const Move move = done[m] ? Move{} : best_move(m);
+                done[m] = move.patch < 0;
                 if (move.patch >= 0) moves.push_back(move);
             }
             if (moves.empty()) break;

@@ -15,7 +15,7 @@
 
 #include "src/base/enum_names.hpp"
 
-namespace Eigen {
+namespace Eigen {  // NOLINT(readability-identifier-naming): the name is Eigen's
 template <class Derived>
 class PlainObjectBase;
 }
