@@ -135,7 +135,9 @@ TEST_P(CoSegmentationCut, TheChosenStartHasTheBestScoreOfThoseThatAreNotDegenera
     const StartOutcome& chosen = result.starts[static_cast<std::size_t>(result.chosen)];
     for (const StartOutcome& start : result.starts) {
         EXPECT_EQ(start.parts_found, parts);
-        if (!start.degenerate) EXPECT_LE(start.score, chosen.score);
+        if (!start.degenerate) {
+            EXPECT_LE(start.score, chosen.score);
+        }
     }
 }
 
