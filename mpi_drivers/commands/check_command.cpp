@@ -47,10 +47,6 @@ struct CheckRow {
     }
 };
 
-std::string check_count(int count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 /// Names may hold anything, but a mesh has one line.
 std::string on_one_line(std::string text) {
     for (char& c : text) {
@@ -69,9 +65,9 @@ std::string without_path(const std::string& sentence, const std::string& path) {
 std::string line_of(const CheckedMesh& mesh) {
     if (!mesh.set_aside.empty())
         return on_one_line(mesh.path + ": set aside: " + without_path(mesh.set_aside, mesh.path));
-    std::string line = mesh.path + ": " + check_count(mesh.vertices, "vertex", "vertices") + ", " +
-                       check_count(mesh.faces, "face", "faces") + ", " +
-                       check_count(mesh.pieces, "piece", "pieces");
+    std::string line = mesh.path + ": " + with_unit(mesh.vertices, "vertex", "vertices") + ", " +
+                       with_unit(mesh.faces, "face", "faces") + ", " +
+                       with_unit(mesh.pieces, "piece", "pieces");
     for (const std::string& warning : mesh.warnings) line += "; " + without_path(warning, mesh.path);
     return on_one_line(line);
 }
@@ -88,14 +84,10 @@ CheckTotals totals_of(const std::vector<CheckedMesh>& meshes) {
     return totals;
 }
 
-std::optional<std::string> bytes_of_no_text(const std::string& text) {
-    return is_utf8(text) ? std::nullopt : std::optional<std::string>(hex_of_bytes(text));
-}
-
 void write_json(const std::string& path, const std::vector<CheckedMesh>& meshes, const CheckTotals& totals) {
     std::vector<CheckRow> rows;
     for (const CheckedMesh& mesh : meshes)
-        rows.push_back({mesh, bytes_of_no_text(mesh.name), bytes_of_no_text(mesh.path)});
+        rows.push_back({mesh, hex_unless_utf8(mesh.name), hex_unless_utf8(mesh.path)});
     JsonTree tree;
     tree.root().member("format").set("coseg check 1");
     set_json(tree.root().member("totals"), totals);
@@ -105,7 +97,7 @@ void write_json(const std::string& path, const std::vector<CheckedMesh>& meshes,
 
 void print(const std::vector<CheckedMesh>& meshes, const CheckTotals& totals) {
     for (const CheckedMesh& mesh : meshes) std::cout << line_of(mesh) << '\n';
-    std::cout << check_count(totals.meshes, "mesh", "meshes") << ": "
+    std::cout << with_unit(totals.meshes, "mesh", "meshes") << ": "
               << totals.meshes - totals.warned - totals.set_aside << " as they are, " << totals.warned
               << " with something to repair or to know, " << totals.set_aside << " set aside" << std::endl;
 }

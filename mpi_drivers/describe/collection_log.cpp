@@ -2,15 +2,9 @@
 
 #include <algorithm>
 
+#include "src/base/text.hpp"
+
 namespace coseg {
-
-namespace {
-
-std::string with_unit(std::int64_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-}  // namespace
 
 std::string described_summary(const Collection& collection) {
     std::int64_t faces = 0;

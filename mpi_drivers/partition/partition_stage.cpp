@@ -15,10 +15,6 @@ namespace coseg {
 
 namespace {
 
-std::string with_unit(std::int64_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 /// Says which part is hardly one, and what to do about it.
 void warn_of_degenerate_parts(const CutResult& cut, int parts, int meshes, const StageLog& log) {
     if (cut.starts.empty()) return;
@@ -32,7 +28,7 @@ void warn_of_degenerate_parts(const CutResult& cut, int parts, int meshes, const
     int kept = 0;
     for (int p = 0; p < chosen.parts_found; ++p) {
         const int in_meshes = cut.meshes_with_part[at(p)];
-        if (cut.part_share[at(p)] >= least_share && 2 * in_meshes >= meshes) {
+        if (!is_degenerate_part(cut.part_share[at(p)], in_meshes, meshes)) {
             ++kept;
             continue;
         }

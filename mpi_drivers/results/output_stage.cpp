@@ -43,10 +43,6 @@ std::vector<double> to_vector(const Eigen::VectorXd& values) {
     return {values.data(), values.data() + values.size()};
 }
 
-std::optional<std::string> bytes_if_no_text(const std::string& name) {
-    return is_utf8(name) ? std::nullopt : std::optional<std::string>(hex_of_bytes(name));
-}
-
 std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::MatrixXd& part_areas) {
     std::vector<ReportMesh> rows;
     for (std::size_t m = 0; m < outcome.collection.meshes.size(); ++m) {
@@ -55,8 +51,8 @@ std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::Ma
         rows.push_back({.facts = facts,
                         .patches = outcome.collection.numbering.count(number),
                         .part_area = to_vector(part_areas.col(number)),
-                        .name_bytes = bytes_if_no_text(facts.name),
-                        .path_bytes = bytes_if_no_text(facts.path)});
+                        .name_bytes = hex_unless_utf8(facts.name),
+                        .path_bytes = hex_unless_utf8(facts.path)});
     }
     return rows;
 }

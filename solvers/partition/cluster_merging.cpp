@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "solvers/partition/part_shares.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {
@@ -71,18 +72,6 @@ std::vector<Union> all_unions(const std::vector<Partial>& partials) {
         }
     }
     return unions;
-}
-
-/// The same number for clusters of the same group, in the order of clusters.
-std::vector<int> renumbered(const std::vector<int>& group) {
-    std::vector<int> number(group.size(), -1);
-    std::vector<int> result;
-    int next = 0;
-    for (const int g : group) {
-        if (number[at(g)] < 0) number[at(g)] = next++;
-        result.push_back(number[at(g)]);
-    }
-    return result;
 }
 
 std::vector<int> group_after(const Partial& partial, int a, int b) {

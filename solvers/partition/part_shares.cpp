@@ -33,12 +33,28 @@ std::vector<double> mean_area_shares(const std::vector<int>& labels, int parts,
     return shares;
 }
 
+bool is_degenerate_part(double mean_share, int meshes_with_part, int meshes) {
+    return mean_share < 0.005 || 2 * meshes_with_part < meshes;
+}
+
 bool is_degenerate(const Eigen::MatrixXd& shares) {
     for (Eigen::Index p = 0; p < shares.rows(); ++p) {
-        const Eigen::Index meshes = (shares.row(p).array() > 0.0).count();
-        if (shares.row(p).mean() < least_share || 2 * meshes < shares.cols()) return true;
+        const auto with_part = static_cast<int>((shares.row(p).array() > 0.0).count());
+        if (is_degenerate_part(shares.row(p).mean(), with_part, static_cast<int>(shares.cols()))) return true;
     }
     return false;
+}
+
+std::vector<int> renumbered(const std::vector<int>& labels) {
+    std::vector<int> number;
+    std::vector<int> result;
+    int next = 0;
+    for (const int label : labels) {
+        if (at(label) >= number.size()) number.resize(at(label) + 1, -1);
+        if (number[at(label)] < 0) number[at(label)] = next++;
+        result.push_back(number[at(label)]);
+    }
+    return result;
 }
 
 std::vector<int> canonical_labels(const std::vector<int>& labels, int parts,

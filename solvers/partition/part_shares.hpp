@@ -16,12 +16,15 @@ Eigen::MatrixXd area_shares(const std::vector<int>& labels, int parts, const std
 std::vector<double> mean_area_shares(const std::vector<int>& labels, int parts,
                                      const std::vector<double>& patch_area, const std::vector<int>& mesh_of);
 
-/// Below this mean share of area a part counts as none.
-inline constexpr double least_share = 0.005;
+/// Whether a part is hardly one: it has less than half a percent of the area, by its mean share over the
+/// meshes, or occurs in less than half of them.
+bool is_degenerate_part(double mean_share, int meshes_with_part, int meshes);
 
-/// Whether a part has less than `least_share` of the area, or occurs in less than half of the meshes.
-/// `shares` as area_shares gives them.
+/// Whether a part of the partition is. `shares` as area_shares gives them.
 bool is_degenerate(const Eigen::MatrixXd& shares);
+
+/// The labels numbered 0, 1, ... without gaps, in the order in which they first occur. `labels` are >= 0.
+std::vector<int> renumbered(const std::vector<int>& labels);
 
 /// The same partition with parts numbered by decreasing mean area share, of equal ones by the lowest patch.
 /// Labels without a patch come last.

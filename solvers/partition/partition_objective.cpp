@@ -60,11 +60,7 @@ class Ties {
 
 /// What overlap_agreement gains by the pair in the same part.
 void add_overlaps(const PartitionEvidence& evidence, double weight, Ties& ties) {
-    std::vector<double> all(evidence.mesh_of.size(), 0.0);
-    for (const GlobalPatchOverlap& pair : evidence.overlaps) {
-        all[at(pair.patch_a)] += pair.intersection_over_union;
-        all[at(pair.patch_b)] += pair.intersection_over_union;
-    }
+    const std::vector<double> all = overlap_sums(evidence.overlaps, evidence.mesh_of.size());
     double area = 0.0;
     for (std::size_t i = 0; i < all.size(); ++i) area += all[i] > 0.0 ? evidence.patch_area[i] : 0.0;
     for (const GlobalPatchOverlap& pair : evidence.overlaps) {
@@ -97,10 +93,8 @@ PartitionObjective partition_objective(const PartitionEvidence& evidence, const 
         first += d.histograms.rows();
     }
     Ties ties(mesh_of.size());
-    for (const GlobalPatchNeighbors& pair : evidence.neighbors) {
-        const double flat = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
-        ties.add(pair.patch_a, pair.patch_b, weights.crease * pair.boundary_length * flat * flat / meshes);
-    }
+    for (const GlobalPatchNeighbors& pair : evidence.neighbors)
+        ties.add(pair.patch_a, pair.patch_b, weights.crease * crease_cost(pair) / meshes);
     add_overlaps(evidence, weights.overlap, ties);
     objective.ties = ties.take();
     objective.mesh_of = mesh_of;

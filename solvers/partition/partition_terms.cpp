@@ -44,28 +44,40 @@ double boundary_concavity(const std::vector<GlobalPatchNeighbors>& neighbors,
     return length > 0.0 ? concave / length : 0.0;
 }
 
+double crease_cost(const GlobalPatchNeighbors& pair) {
+    const double flat = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
+    return pair.boundary_length * flat * flat;
+}
+
+std::vector<double> overlap_sums(const std::vector<GlobalPatchOverlap>& overlaps, std::size_t patches) {
+    std::vector<double> sums(patches, 0.0);
+    for (const GlobalPatchOverlap& pair : overlaps) {
+        sums[at(pair.patch_a)] += pair.intersection_over_union;
+        sums[at(pair.patch_b)] += pair.intersection_over_union;
+    }
+    return sums;
+}
+
 double boundary_crease(const std::vector<GlobalPatchNeighbors>& neighbors, const std::vector<int>& labels,
                        int meshes) {
     double cost = 0.0;
     for (const GlobalPatchNeighbors& pair : neighbors) {
         if (labels[at(pair.patch_a)] == labels[at(pair.patch_b)]) continue;
-        const double flat = 1.0 - std::clamp(pair.concavity, 0.0, 1.0);
-        cost += pair.boundary_length * flat * flat;
+        cost += crease_cost(pair);
     }
     return -cost / static_cast<double>(meshes);
 }
 
 double overlap_agreement(const std::vector<GlobalPatchOverlap>& overlaps, const std::vector<int>& labels,
                          const std::vector<double>& patch_area) {
-    std::vector<double> all(labels.size(), 0.0);
+    const std::vector<double> all = overlap_sums(overlaps, labels.size());
     std::vector<double> own(labels.size(), 0.0);
     for (const GlobalPatchOverlap& pair : overlaps) {
         const auto a = at(pair.patch_a);
         const auto b = at(pair.patch_b);
-        for (const std::size_t i : {a, b}) {
-            all[i] += pair.intersection_over_union;
-            if (labels[a] == labels[b]) own[i] += pair.intersection_over_union;
-        }
+        if (labels[a] != labels[b]) continue;
+        own[a] += pair.intersection_over_union;
+        own[b] += pair.intersection_over_union;
     }
     double agreed = 0.0;
     double area = 0.0;

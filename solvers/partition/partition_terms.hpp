@@ -40,6 +40,12 @@ double partition_score(const PartitionTerms& terms, const ChoiceWeights& weights
 /// The length-weighted mean concavity over neighbours of different labels; 0 if no two neighbours differ.
 double boundary_concavity(const std::vector<GlobalPatchNeighbors>& neighbors, const std::vector<int>& labels);
 
+/// length (1 - mc)^2 of the boundary between two patches.
+double crease_cost(const GlobalPatchNeighbors& pair);
+
+/// For each of `patches` patches the sum of the intersections over union with all that it overlaps.
+std::vector<double> overlap_sums(const std::vector<GlobalPatchOverlap>& overlaps, std::size_t patches);
+
 /// Minus the total of length (1 - mc)^2 over the boundaries between parts, divided by the number of meshes:
 /// long boundaries outside creases are costly. `meshes` is at least 1.
 double boundary_crease(const std::vector<GlobalPatchNeighbors>& neighbors, const std::vector<int>& labels,

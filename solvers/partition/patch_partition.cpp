@@ -90,12 +90,7 @@ LabelledOutcome clustering(const GraphCut& cut, int index, const CutStart& start
     result.outcome.set_aside = static_cast<int>(std::count(result.labels.begin(), result.labels.end(), -1));
     result.outcome.unreached = attach_set_aside(result.labels, cut.within_mesh_affinity, largest);
     result.eigenvalues.assign(cut.embedding.eigenvalues.begin(), cut.embedding.eigenvalues.begin() + count);
-    std::vector<int> number(at(count), -1);
-    int next = 0;
-    for (int& label : result.labels) {
-        if (number[at(label)] < 0) number[at(label)] = next++;
-        label = number[at(label)];
-    }
+    result.labels = renumbered(result.labels);
     return result;
 }
 
@@ -184,6 +179,11 @@ void describe_outcome(const Task& task, LabelledOutcome& result) {
 LabelledOutcome merged(const Task& task, const PartitionObjective& objective,
                        const LabelledOutcome& clustering) {
     const int clusters = 1 + *std::max_element(clustering.labels.begin(), clustering.labels.end());
+    if (clusters <= task.options.parts) {
+        LabelledOutcome same = clustering;
+        describe_outcome(task, same);
+        return same;
+    }
     const ClusterSums sums = cluster_sums(objective, clustering.labels, clusters);
     std::optional<LabelledOutcome> best;
     for (const std::vector<int>& part_of : merge_clusters(sums, task.options.parts)) {

@@ -39,6 +39,10 @@ std::string escaped(std::string_view text) {
     return safe;
 }
 
+std::string with_unit(std::int64_t count, const std::string& one, const std::string& many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
 bool is_utf8(std::string_view bytes) {
     const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(bytes[k]); };
     for (std::size_t k = 0; k < bytes.size();) {
@@ -69,6 +73,10 @@ std::string hex_of_bytes(std::string_view bytes) {
         hex += {digits[byte >> 4U], digits[byte & 15U]};
     }
     return hex;
+}
+
+std::optional<std::string> hex_unless_utf8(std::string_view bytes) {
+    return is_utf8(bytes) ? std::nullopt : std::optional<std::string>(hex_of_bytes(bytes));
 }
 
 std::string bytes_of_hex(std::string_view hex) {

@@ -1,6 +1,8 @@
 #pragma once
 // Writes numbers and names as messages, pages and files show them.
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +17,9 @@ std::string decimal(double value, int digits);
 /// A share of 1 in percent, with `digits` behind the point: percent(0.5, 0) is "50 %".
 std::string percent(double share, int digits);
 
+/// A number and what it counts: "1 shape", "20 shapes".
+std::string with_unit(std::int64_t count, const std::string& one, const std::string& many);
+
 /// `text` with the characters escaped that XML and HTML would misread, between tags or inside an attribute's
 /// quotation marks.
 std::string escaped(std::string_view text);
@@ -26,5 +31,8 @@ bool is_utf8(std::string_view bytes);
 /// digits ends the bytes.
 std::string hex_of_bytes(std::string_view bytes);
 std::string bytes_of_hex(std::string_view hex);
+
+/// The digits of bytes that are no UTF-8 and that JSON cannot hold; none where `bytes` are.
+std::optional<std::string> hex_unless_utf8(std::string_view bytes);
 
 }  // namespace coseg

@@ -22,6 +22,11 @@ TEST(PartShares, PartsAreNumberedByShareThenByLowestPatch) {
               (std::vector<int>{0, 1, 1, 2, 0}));
 }
 
+TEST(PartShares, LabelsAreRenumberedInTheOrderInWhichTheyOccur) {
+    EXPECT_EQ(renumbered({4, 0, 4, 7, 0}), (std::vector<int>{0, 1, 0, 2, 1}));
+    EXPECT_TRUE(renumbered({}).empty());
+}
+
 TEST(PartShares, APartIsDegenerateWhereItIsTinyOrInTheFewestMeshes) {
     Eigen::MatrixXd shares(2, 4);
     shares << 0.5, 0.4, 0.0, 0.0,  //

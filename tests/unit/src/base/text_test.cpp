@@ -35,6 +35,14 @@ TEST(Text, BytesComeBackFromTheirDigits) {
     EXPECT_EQ(bytes_of_hex(hex_of_bytes(bytes)), bytes);
     EXPECT_EQ(hex_of_bytes("caf\xe9"), "636166e9");
     EXPECT_EQ(bytes_of_hex("6361g6"), "ca");
+    EXPECT_EQ(hex_unless_utf8("caf\xe9"), "636166e9");
+    EXPECT_EQ(hex_unless_utf8("plain"), std::nullopt);
+}
+
+TEST(Text, OneThingIsNamedInTheSingular) {
+    EXPECT_EQ(with_unit(0, "shape", "shapes"), "0 shapes");
+    EXPECT_EQ(with_unit(1, "shape", "shapes"), "1 shape");
+    EXPECT_EQ(with_unit(20, "vertex", "vertices"), "20 vertices");
 }
 
 }  // namespace
