@@ -7,6 +7,7 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "mpi_drivers/options/run_option_table.hpp"
+#include "mpi_drivers/partition/example_stage.hpp"
 #include "mpi_drivers/partition/partition_stage.hpp"
 #include "mpi_drivers/partition/run_checkpoints.hpp"
 #include "mpi_drivers/partition/run_model.hpp"
@@ -19,8 +20,8 @@
 
 namespace coseg {
 
-void co_segment(const Comm& comm, const RunOptions& options,
-                const std::vector<std::string>& petsc_arguments) {
+void co_segment(const Comm& comm, const RunOptions& given, const std::vector<std::string>& petsc_arguments) {
+    const RunOptions options = with_parts_of_examples(comm, given);
     const auto& [preset, description, feature_options, optimise, partition, output, process] = options;
     refuse_contradictions(options);
     StageLog log(comm, process.verbosity(), process.log_form());
@@ -43,21 +44,22 @@ void co_segment(const Comm& comm, const RunOptions& options,
     ModelPatches model;
     if (output.keep_model && comm.is_root()) model = model_patches(collection, features, optimise.seed);
     folders.end_if_asked(comm, "all meshes");
+    const GivenLabels examples = read_examples(comm, collection, partition, log);
 
     // Equations (6) to (8): the patches' coefficients over each other, their affinity, and its cut into
     // parts.
     const std::vector<OptionValue> values = option_values(options);
     RunCheckpoints checkpoints(comm, folders.state(), cut_option_text(values, petsc_arguments));
-    const Partitioned partitioned =
-        partition_stage(comm, collection, std::move(features),
-                        {optimise, partition, checkpoints.tiles(), checkpoints.cuts()}, log);
+    const Partitioned partitioned = partition_stage(
+        comm, collection, std::move(features),
+        {optimise, partition, examples.patches, checkpoints.tiles(), checkpoints.cuts()}, log);
     checkpoints.warn_of_damage(log);
     folders.end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
 
     // The parts of faces: a vote of the over-segmentations, and boundaries that follow creases.
     const std::vector<int>& part_of_patch = partitioned.cut.part_of_patch;
     const std::vector<MeshLabels> labels =
-        label_faces(collection, part_of_patch, partition.parts, output.refine, log);
+        label_faces(collection, part_of_patch, partition.parts, output.refine, log, examples.faces);
     CheckedPetsc::refuse_unused(comm);
 
     if (output.keep_model)

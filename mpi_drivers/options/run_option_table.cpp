@@ -185,10 +185,16 @@ void RunOptionTable::add_picture() {
 
 void RunOptionTable::add_results() {
     OutputOptions& output = options_.output;
-    add({"parts", Affects::cut, in_out_group, "Number of parts K that the shapes are cut into"},
+    add({"parts", Affects::cut, in_out_group,
+         "Number of parts K that the shapes are cut into; required but with --examples, which say it"},
         options_.partition.parts)
-        ->required()
         ->check(CLI::Range(1, 1000));
+    // Where the labels are has no effect; they themselves are part of what a cut is found by.
+    add({"examples", Affects::nothing, in_out_group,
+         "Folder with labels of yours for one shape or more, NAME.seg with a number a face (0, 1, ..., or -1 "
+         "for faces of which nothing is said): the others get the same parts"},
+        options_.partition.examples)
+        ->type_name("DIR");
     add({"out", Affects::nothing, in_out_group,
          "Folder for the results; must be new or empty unless --force"},
         output.folder)

@@ -83,6 +83,11 @@ void refuse_contradictions(const RunOptions& options) {
     if (!has_own && std::none_of(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; }))
         throw AgreedError(ExitCode::usage,
                           "--feature-weights: all are zero; give at least one that is positive");
+    const PartitionOptions& partition = options.partition;
+    if (!partition.examples.empty() &&
+        (partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion))
+        throw AgreedError(ExitCode::usage,
+                          "--examples cannot be joined with --subsets, --segments or --partition diffusion");
     // An offset, as the paper's code adds one to the affinity, leaves the balance without a meaning.
     if (options.partition.cut_offset > 0.0 && options.partition.mesh_balance > 0.0)
         throw AgreedError(ExitCode::usage,

@@ -115,7 +115,8 @@ constexpr std::array<EnumName<PartitionMethod>, 2> enum_names(PartitionMethod /*
 /// Options of the stage that finds the part of every patch from coefficients.
 struct PartitionOptions {
     std::uint64_t seed = 1;  ///< of subsets, and of the diffusion map's clusters
-    int parts = 0;           ///< K
+    int parts = 0;           ///< K; 0: as many as the examples have labels
+    std::string examples;    ///< folder of the labels that the user gives for some shapes; "": none
     PartitionMethod method = PartitionMethod::spectral;
     AffinityForm affinity = AffinityForm::links;
     double drop_below = 0.0;  ///< entries of the affinity below are dropped

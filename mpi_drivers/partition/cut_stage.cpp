@@ -81,16 +81,19 @@ std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features,
 }  // namespace
 
 PartitionInput partition_input(const Collection& collection, PatchFeatures features,
-                               const SparseCoefficients& coefficients, const PartitionOptions& options) {
+                               const SparseCoefficients& coefficients, const PartitionOptions& options,
+                               const ExampleLabels& examples) {
     std::vector<ChoiceDescriptor> choice = choice_descriptors(features, options);
     FeatureMatrices clustered;
-    if (options.method == PartitionMethod::diffusion) clustered = std::move(features.histograms);
+    if (options.method == PartitionMethod::diffusion || !examples.empty())
+        clustered = std::move(features.histograms);
     return {.collection = collection,
             .coefficients = coefficients,
             .patch_area = std::move(features.patch_area),
             .positions = std::move(features.positions),
             .choice = std::move(choice),
-            .histograms = std::move(clustered)};
+            .histograms = std::move(clustered),
+            .examples = examples.empty() ? nullptr : &examples};
 }
 
 CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const PartitionOptions& options) {
@@ -102,10 +105,10 @@ CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const Pa
     }
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(input.collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(input.collection);
-    return partition_patches(
-        comm,
-        {input.coefficients, neighbors, overlaps, mesh_of, input.patch_area, input.choice, &input.positions},
-        cut_options(input.positions, options));
+    return partition_patches(comm,
+                             {input.coefficients, neighbors, overlaps, mesh_of, input.patch_area,
+                              input.choice, &input.positions, input.examples, &input.histograms},
+                             cut_options(input.positions, options));
 }
 
 }  // namespace coseg

@@ -22,14 +22,18 @@ struct PartitionInput {
     Eigen::Matrix3Xd positions;      ///< 3 x N; 3 x 0 where what is cut are not patches
     /// by which one of several starts is chosen; none with a single one.
     std::vector<ChoiceDescriptor> choice;
-    FeatureMatrices histograms;  ///< of --partition diffusion, which clusters them; none otherwise
+    /// Of --partition diffusion, which clusters them, and of examples, which are followed by them; none
+    /// otherwise.
+    FeatureMatrices histograms;
+    const ExampleLabels* examples = nullptr;  ///< null where there are none
 };
 
-/// Takes from the features what the cut uses. The rest is freed: in a large collection it is most of the
+/// Takes from the features what the cut uses. `examples` are not copied. The rest is freed: in a large collection it is most of the
 /// memory, which the cut needs for its graphs. Collective where the features are the last handle of their
 /// memory.
 PartitionInput partition_input(const Collection& collection, PatchFeatures features,
-                               const SparseCoefficients& coefficients, const PartitionOptions& options);
+                               const SparseCoefficients& coefficients, const PartitionOptions& options,
+                               const ExampleLabels& examples = {});
 
 /// Cuts the patches into K parts. K must not exceed the number of patches. Collective. Throws
 /// AgreedError(not_converged).

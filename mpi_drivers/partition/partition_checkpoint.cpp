@@ -78,6 +78,7 @@ ContentHash cut_key(const Comm& comm, const PartitionInput& input, const std::st
     add_value(hasher, input.patch_area);
     add_value(hasher, input.positions);
     for (const ChoiceDescriptor& d : input.choice) add_value(hasher, d.histograms);
+    if (input.examples != nullptr) add_value(hasher, input.examples->area);
     return hasher.result();
 }
 

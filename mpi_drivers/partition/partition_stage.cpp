@@ -49,8 +49,8 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     log.end(describe(optimisation));
     const int parts = task.partition.parts;
     if (parts > 1) refuse_empty_solution(optimisation.result, "the collection");
-    const PartitionInput input =
-        partition_input(collection, std::move(features), optimisation.result.coefficients, task.partition);
+    const PartitionInput input = partition_input(
+        collection, std::move(features), optimisation.result.coefficients, task.partition, task.examples);
     log.begin("cut");
     CutResult cut = cut_or_found(comm, input, task.partition, task.cuts);
     log.end(with_unit(static_cast<std::int64_t>(cut.starts.size()), "start", "starts") + ", " +

@@ -4,6 +4,7 @@
 
 #include "mpi_drivers/options/stage_options.hpp"
 #include "mpi_drivers/partition/partition_checkpoint.hpp"
+#include "solvers/partition/example_scores.hpp"
 #include "solvers/subspace/solver_checkpoint.hpp"
 
 namespace coseg {
@@ -11,6 +12,7 @@ namespace coseg {
 struct PartitionTask {
     const OptimiseOptions& optimise;
     const PartitionOptions& partition;
+    const ExampleLabels& examples;        ///< empty where there are none
     SolverCheckpoint* tiles = nullptr;    ///< null where no state is kept
     PartitionCheckpoint* cuts = nullptr;  ///< likewise
 };

@@ -31,6 +31,13 @@ std::vector<double> area_shares(const MeshDescription& mesh, const std::vector<i
     return share;
 }
 
+/// `given`: empty, or -1 where nothing is said.
+void keep_given(const std::vector<int>& given, std::vector<int>& part_of_input_face) {
+    for (std::size_t f = 0; f < given.size(); ++f) {
+        if (given[f] >= 0) part_of_input_face[f] = given[f];
+    }
+}
+
 /// How far a crease may draw a boundary, in units of sqrt(area of the mesh): a sixth of the side of a patch.
 constexpr double boundary_reach = 0.025;
 
@@ -46,14 +53,17 @@ std::vector<int> refined(const MeshDescription& mesh, const std::vector<int>& pa
 }  // namespace
 
 std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
-                                    int parts, RefineMode refine, StageLog& log) {
+                                    int parts, RefineMode refine, StageLog& log,
+                                    const std::vector<std::vector<int>>& given) {
     log.begin("label");
     std::vector<MeshLabels> labels;
-    for (const MeshDescription& mesh : collection.local) {
+    for (std::size_t k = 0; k < collection.local.size(); ++k) {
+        const MeshDescription& mesh = collection.local[k];
         const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, part_of_patch);
         const std::vector<int> part_of_face =
             refined(mesh, vote_face_labels(mesh.patches, part_of, parts, mesh.graph), refine);
         std::vector<int> part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area);
+        if (!given.empty()) keep_given(given[k], part);
         std::vector<double> part_area = area_shares(mesh, part, parts);
         labels.push_back({.mesh = mesh.mesh,
                           .part = std::move(part),

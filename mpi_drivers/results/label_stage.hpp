@@ -16,9 +16,10 @@ struct MeshLabels {
     std::vector<double> part_area;  ///< K, shares of the mesh's area; 0 for a part that no face has
 };
 
-/// Labels of this rank's meshes, voted and refined. part_of_patch: N, all patches, 0 .. parts - 1. The log
-/// has the stage "label". Collective.
+/// Labels of this rank's meshes, voted and refined. part_of_patch: N, all patches, 0 .. parts - 1. `given`:
+/// GivenLabels::faces, which faces keep. The log has the stage "label". Collective.
 std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
-                                    int parts, RefineMode refine, StageLog& log);
+                                    int parts, RefineMode refine, StageLog& log,
+                                    const std::vector<std::vector<int>>& given = {});
 
 }  // namespace coseg

@@ -1,42 +1,19 @@
 #include "solvers/partition/patch_partition.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <optional>
 #include <string>
 #include <utility>
 
-#include "solvers/affinity/affinity.hpp"
-#include "solvers/affinity/graph_components.hpp"
-#include "solvers/partition/cluster_merging.hpp"
 #include "solvers/partition/cut_graphs.hpp"
 #include "solvers/partition/part_shares.hpp"
-#include "solvers/partition/partition_objective.hpp"
-#include "solvers/partition/patch_moves.hpp"
-#include "solvers/spectral/normalized_cut.hpp"
+#include "solvers/partition/partition_search.hpp"
+#include "solvers/partition/start_clusterings.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
-#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
 namespace {
-
-/// What came of the start of this number.
-struct LabelledOutcome {
-    int index = 0;
-    StartOutcome outcome;
-    std::vector<int> labels;          ///< of patches: clusters, then parts
-    std::vector<double> eigenvalues;  ///< as in CutResult
-    static constexpr auto fields() {
-        return std::tuple(
-            field("index", &LabelledOutcome::index), field("outcome", &LabelledOutcome::outcome),
-            field("labels", &LabelledOutcome::labels), field("eigenvalues", &LabelledOutcome::eigenvalues));
-    }
-};
-
-/// Partitions that are improved by moves of single patches: those with the best scores.
-constexpr std::size_t finalists = 12;
 
 bool asks_for_positions(const CutOptions& options) {
     return std::any_of(options.starts.begin(), options.starts.end(),
@@ -58,212 +35,75 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
                         "coefficients, meshes and areas of the cut are of different lengths");
         }
         if (options.starts.empty()) throw Error(ExitCode::internal, "the cut was given no start");
+        if (input.examples != nullptr &&
+            (input.features == nullptr || input.features->columns() != patches ||
+             input.examples->area.cols() != patches || input.examples->area.rows() != options.parts))
+            throw Error(ExitCode::internal, "examples and features of the cut are not of all patches");
         if (asks_for_positions(options) && (input.positions == nullptr || input.positions->cols() != patches))
             throw Error(ExitCode::internal, "a start of the cut uses positions, but not every patch has one");
     });
 }
 
-std::vector<int> cluster_sizes(const std::vector<int>& labels, int clusters) {
-    std::vector<int> sizes(at(clusters), 0);
-    for (const int label : labels) {
-        if (label >= 0) ++sizes[at(label)];
-    }
-    return sizes;
-}
-
-/// Everything that the clusterings of one graph share.
-struct GraphCut {
-    const SparseRows& within_mesh_affinity;
-    const SpectralEmbedding& embedding;
-    std::int64_t patches = 0;
+/// All candidates, and the number of the one that is taken.
+struct Found {
+    std::vector<PartitionCandidate> candidates;
+    std::size_t chosen = 0;
 };
 
-/// The clusters of a start, numbered 0, 1, ... without gaps.
-LabelledOutcome clustering(const GraphCut& cut, int index, const CutStart& start) {
-    const int count = std::min(start.clusters, static_cast<int>(cut.embedding.eigenvalues.size()));
-    LabelledOutcome result;
-    result.index = index;
-    result.outcome.start = start;
-    result.labels = cut_embedding(cut.embedding, count, cut.patches);
-    const std::vector<int> sizes = cluster_sizes(result.labels, count);
-    const auto largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-    result.outcome.set_aside = static_cast<int>(std::count(result.labels.begin(), result.labels.end(), -1));
-    result.outcome.unreached = attach_set_aside(result.labels, cut.within_mesh_affinity, largest);
-    result.eigenvalues.assign(cut.embedding.eigenvalues.begin(), cut.embedding.eigenvalues.begin() + count);
-    result.labels = renumbered(result.labels);
-    return result;
+/// Collective.
+Found found_alone(const Comm& comm, const PartitionEvidence& evidence, const CutOptions& options,
+                  std::vector<PartitionCandidate> clusterings) {
+    const PartitionObjective objective = partition_objective(evidence, options.choice);
+    const SearchTask task{evidence, objective, options.choice, options.parts};
+    Found found{search_partitions(comm, task, std::move(clusterings))};
+    found.chosen = best_candidate(found.candidates);
+    PartitionCandidate& chosen = found.candidates[found.chosen];
+    if (options.starts.size() > 1) chosen = expanded(comm, task, std::move(chosen));
+    return found;
 }
 
-/// The starts that share a graph, in the order of their first.
-std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& starts) {
-    std::vector<std::vector<int>> groups;
-    for (std::size_t k = 0; k < starts.size(); ++k) {
-        const auto same = std::find_if(groups.begin(), groups.end(), [&](const std::vector<int>& group) {
-            return starts[at(group.front())].graph == starts[k].graph;
-        });
-        if (same == groups.end()) {
-            groups.push_back({static_cast<int>(k)});
-        } else {
-            same->push_back(static_cast<int>(k));
-        }
-    }
-    return groups;
+/// The scores of the examples as a descriptor that a partition should explain, beside the others.
+std::vector<ChoiceDescriptor> with_scores(std::span<const ChoiceDescriptor> descriptors,
+                                          const Eigen::MatrixXd& scores, double weight) {
+    std::vector<ChoiceDescriptor> all(descriptors.begin(), descriptors.end());
+    all.push_back({scores.cast<float>(), {.pooled = weight, .per_mesh = weight}});
+    return all;
 }
 
-/// What all steps of one call look at.
-struct Task {
-    const CutInput& input;
-    const CutOptions& options;
-    const GraphInput& graphs;
-    const GraphTerms& terms;
+/// The evidence of the cut, and the frame of its positions.
+struct PlacedEvidence {
     const PartitionEvidence& evidence;
+    const PositionFrame& frame;
 };
 
-/// The clusterings of the starts of one graph. Collective over the group.
-std::vector<LabelledOutcome> clusterings_of_graph(const Comm& group, const Task& task,
-                                                  const std::vector<int>& starts) {
-    const std::vector<CutStart>& all = task.options.starts;
-    const SparseRows graph =
-        graph_of(task.terms, task.graphs, all[at(starts.front())].graph, task.options.drop_below);
-    int count = task.options.parts;
-    for (const int k : starts) count = std::max(count, all[at(k)].clusters);
-    const SpectralEmbedding embedding = spectral_embedding(group, graph, task.options.parts, count,
-                                                           task.options.spectral, task.input.mesh_of);
-    const GraphCut cut{task.terms.within_mesh_affinity, embedding, graph.size};
-    std::vector<LabelledOutcome> clusterings;
-    for (const int k : starts) clusterings.push_back(clustering(cut, k, all[at(k)]));
-    return clusterings;
-}
-
-/// The clusterings that this rank goes on with. Graphs are dealt over the ranks, each cut by one of them.
-/// Collective.
-std::vector<LabelledOutcome> dealt_clusterings(const Comm& comm, const Task& task) {
-    const Comm self(MPI_COMM_SELF);
-    const std::vector<std::vector<int>> graphs = starts_by_graph(task.options.starts);
-    std::vector<LabelledOutcome> mine;
+/// The search looks for partitions that explain the scores of the examples too; the best one gets their
+/// labels. Collective.
+Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvidence& placed,
+                        const CutOptions& options, std::vector<PartitionCandidate> clusterings) {
+    const PartitionEvidence& evidence = placed.evidence;
+    Eigen::MatrixXd scores;
     agree(comm, [&] {
-        for (auto q = at(comm.rank()); q < graphs.size(); q += at(comm.size())) {
-            for (LabelledOutcome& r : clusterings_of_graph(self, task, graphs[q])) {
-                mine.push_back(std::move(r));
-            }
-        }
+        scores = example_scores(
+            {*input.features, evidence.neighbors, input.positions, placed.frame, input.patch_area},
+            *input.examples);
     });
-    return mine;
-}
-
-/// The same where one graph after the other is cut by all ranks.
-std::vector<LabelledOutcome> shared_clusterings(const Comm& comm, const Task& task) {
-    std::vector<LabelledOutcome> mine;
-    for (const std::vector<int>& starts : starts_by_graph(task.options.starts)) {
-        for (LabelledOutcome& r : clusterings_of_graph(comm, task, starts)) {
-            if (r.index % comm.size() == comm.rank()) mine.push_back(std::move(r));
-        }
+    const std::vector<ChoiceDescriptor> descriptors =
+        with_scores(input.descriptors, scores, options.examples.explained);
+    PartitionEvidence sought = evidence;
+    sought.descriptors = descriptors;
+    Found found;
+    {
+        const PartitionObjective objective = partition_objective(sought, options.choice);
+        found.candidates = search_partitions(comm, {sought, objective, options.choice, options.parts},
+                                             std::move(clusterings));
     }
-    return mine;
-}
-
-/// Numbers the parts, so that partitions that are the same have the same terms to the last bit, and finds
-/// terms and score.
-void describe_outcome(const Task& task, LabelledOutcome& result) {
-    const CutInput& input = task.input;
-    const int parts = task.options.parts;
-    result.labels = canonical_labels(result.labels, parts, input.patch_area, input.mesh_of);
-    StartOutcome& outcome = result.outcome;
-    outcome.parts_found = 1 + *std::max_element(result.labels.begin(), result.labels.end());
-    outcome.degenerate = is_degenerate(area_shares(result.labels, parts, input.patch_area, input.mesh_of));
-    outcome.terms = partition_terms(task.evidence, result.labels, parts);
-    outcome.score = partition_score(outcome.terms, task.options.choice, input.descriptors);
-}
-
-/// Merges the clusters into parts in several ways, of which the one with the best score is taken.
-LabelledOutcome merged(const Task& task, const PartitionObjective& objective,
-                       const LabelledOutcome& clustering) {
-    const int clusters = 1 + *std::max_element(clustering.labels.begin(), clustering.labels.end());
-    if (clusters <= task.options.parts) {
-        LabelledOutcome same = clustering;
-        describe_outcome(task, same);
-        return same;
-    }
-    const ClusterSums sums = cluster_sums(objective, clustering.labels, clusters);
-    std::optional<LabelledOutcome> best;
-    for (const std::vector<int>& part_of : merge_clusters(sums, task.options.parts)) {
-        LabelledOutcome result = clustering;
-        for (int& label : result.labels) label = part_of[at(label)];
-        describe_outcome(task, result);
-        if (!best || result.outcome.score > best->outcome.score) best = std::move(result);
-    }
-    return std::move(*best);
-}
-
-/// The outcome after moves of single patches, or the same one where these raise the objective but, as it
-/// leaves out a term, not the score.
-LabelledOutcome improved(const Task& task, const PartitionObjective& objective, LabelledOutcome outcome) {
-    MovedPatches moved = move_patches(objective, outcome.labels, task.options.parts);
-    LabelledOutcome after = outcome;
-    after.labels = std::move(moved.labels);
-    after.outcome.moved = moved.moved;
-    describe_outcome(task, after);
-    const bool is_better =
-        after.outcome.score > outcome.outcome.score && after.outcome.degenerate <= outcome.outcome.degenerate;
-    return is_better ? std::move(after) : std::move(outcome);
-}
-
-/// Outcomes with the most parts, none of them degenerate; or, if there are none, the others with the most.
-std::vector<char> eligible_outcomes(const std::vector<LabelledOutcome>& outcomes) {
-    int most = 0;
-    for (const LabelledOutcome& r : outcomes) most = std::max(most, r.outcome.parts_found);
-    std::vector<char> eligible;
-    bool any = false;
-    for (const LabelledOutcome& r : outcomes) {
-        eligible.push_back(r.outcome.parts_found == most && !r.outcome.degenerate ? 1 : 0);
-        any = any || eligible.back() != 0;
-    }
-    for (std::size_t k = 0; k < outcomes.size() && !any; ++k)
-        eligible[k] = outcomes[k].outcome.parts_found == most ? 1 : 0;
-    return eligible;
-}
-
-/// Numbers of outcomes: the eligible ones first, then by falling score, of equal ones the first.
-std::vector<std::size_t> ranking(const std::vector<LabelledOutcome>& outcomes) {
-    const std::vector<char> eligible = eligible_outcomes(outcomes);
-    std::vector<std::size_t> order(outcomes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        if (eligible[a] != eligible[b]) return eligible[a] > eligible[b];
-        return outcomes[a].outcome.score > outcomes[b].outcome.score;
-    });
-    return order;
-}
-
-/// The different partitions among the best.
-std::vector<std::size_t> best_outcomes(const std::vector<LabelledOutcome>& outcomes) {
-    std::vector<std::size_t> best;
-    for (const std::size_t k : ranking(outcomes)) {
-        const bool is_new = std::none_of(best.begin(), best.end(), [&](std::size_t other) {
-            return outcomes[other].labels == outcomes[k].labels;
-        });
-        if (is_new) best.push_back(k);
-        if (best.size() == finalists) break;
-    }
-    return best;
-}
-
-/// All starts, merged, in their order; the best of them improved. The clusterings are those of this rank.
-/// Collective.
-std::vector<LabelledOutcome> searched(const Comm& comm, const Task& task,
-                                      std::vector<LabelledOutcome> clusterings) {
-    const PartitionObjective objective = partition_objective(task.evidence, task.options.choice);
-    for (LabelledOutcome& r : clusterings) r = merged(task, objective, r);
-    std::vector<LabelledOutcome> outcomes = all_gather_records(comm, clusterings);
-    std::sort(outcomes.begin(), outcomes.end(),
-              [](const LabelledOutcome& a, const LabelledOutcome& b) { return a.index < b.index; });
-    if (outcomes.size() == 1) return outcomes;
-    const std::vector<std::size_t> best = best_outcomes(outcomes);
-    std::vector<LabelledOutcome> mine;
-    for (auto k = at(comm.rank()); k < best.size(); k += at(comm.size()))
-        mine.push_back(improved(task, objective, outcomes[best[k]]));
-    for (LabelledOutcome& r : all_gather_records(comm, mine)) outcomes[at(r.index)] = std::move(r);
-    return outcomes;
+    found.chosen = best_candidate(found.candidates);
+    const PartitionObjective objective = partition_objective(evidence, options.choice);
+    const KnownParts known = known_parts(scores, *input.examples, input.patch_area, options.examples);
+    PartitionCandidate& chosen = found.candidates[found.chosen];
+    chosen = labelled(comm, {evidence, objective, options.choice, options.parts}, scores, known,
+                      std::move(chosen));
+    return found;
 }
 
 std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::vector<int>& mesh_of,
@@ -284,6 +124,18 @@ void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& 
                     CutResult& result) {
     result.part_share = mean_area_shares(result.part_of_patch, parts, patch_area, mesh_of);
     result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
+}
+
+CutResult described(const CutInput& input, int parts, const PositionFrame& frame, Found found) {
+    CutResult result;
+    PartitionCandidate& chosen = found.candidates[found.chosen];
+    result.chosen = static_cast<int>(found.chosen);
+    result.part_of_patch = std::move(chosen.labels);
+    result.eigenvalues = std::move(chosen.eigenvalues);
+    for (PartitionCandidate& r : found.candidates) result.starts.push_back(std::move(r.outcome));
+    result.frame = frame;
+    describe_parts(input.mesh_of, input.patch_area, parts, result);
+    return result;
 }
 
 /// 2K, 5K/2, 3K, 7K/2 and 4K clusters, rounded down.
@@ -316,8 +168,8 @@ CutResult described_partition(const std::vector<int>& labels, int parts, const s
 
 CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOptions& options) {
     refuse_bad_request(comm, input, options);
-    CutResult result;
     if (options.parts == 1) {
+        CutResult result;
         result.part_of_patch.assign(input.mesh_of.size(), 0);
         describe_parts(input.mesh_of, input.patch_area, 1, result);
         return result;
@@ -338,16 +190,13 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
     const bool has_links = one_rank && options.choice.links > 0.0;
     const PartitionEvidence evidence{neighbors,     overlaps,         input.descriptors,
                                      input.mesh_of, input.patch_area, has_links ? &terms.base : nullptr};
-    const Task task{input, options, graphs, terms, evidence};
-    std::vector<LabelledOutcome> outcomes =
-        searched(comm, task, one_rank ? dealt_clusterings(comm, task) : shared_clusterings(comm, task));
-    result.chosen = static_cast<int>(ranking(outcomes).front());
-    result.part_of_patch = std::move(outcomes[at(result.chosen)].labels);
-    result.eigenvalues = std::move(outcomes[at(result.chosen)].eigenvalues);
-    for (LabelledOutcome& r : outcomes) result.starts.push_back(std::move(r.outcome));
-    result.frame = terms.frame;
-    describe_parts(input.mesh_of, input.patch_area, options.parts, result);
-    return result;
+    const ClusteringTask clustering{graphs,       terms, options.starts, options.spectral, options.drop_below,
+                                    options.parts};
+    std::vector<PartitionCandidate> clusters = start_clusterings(comm, clustering, one_rank);
+    Found found = input.examples == nullptr
+                      ? found_alone(comm, evidence, options, std::move(clusters))
+                      : found_by_examples(comm, input, {evidence, terms.frame}, options, std::move(clusters));
+    return described(input, options.parts, terms.frame, std::move(found));
 }
 
 }  // namespace coseg

@@ -8,6 +8,7 @@
 #include "solvers/affinity/affinity.hpp"
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/position_correlation.hpp"
+#include "solvers/partition/labelled_parts.hpp"
 #include "solvers/partition/partition_terms.hpp"
 #include "solvers/spectral/spectral_embedding.hpp"
 #include "solvers/subspace/coefficients.hpp"
@@ -36,6 +37,9 @@ struct CutInput {
     std::span<const ChoiceDescriptor> descriptors = {};
     /// 3 x N, the same on all ranks, see position_frame; needed where a start's graph is placed.
     const Eigen::Matrix3Xd* positions = nullptr;
+    /// Labels that patches are said to have, the same on all ranks; null where there are no examples.
+    const ExampleLabels* examples = nullptr;
+    const FeatureMatrices* features = nullptr;  ///< by which examples are followed; needed with examples
 };
 
 struct CutOptions {
@@ -46,6 +50,7 @@ struct CutOptions {
     SpectralOptions spectral;      ///< the paper's code has offset 0.5
     std::vector<CutStart> starts;  ///< at least one
     ChoiceWeights choice;
+    ExampleWeights examples;
     /// Up to this number of entries of the base affinity, a start is the work of one rank, which takes about
     /// 100 bytes an entry. Above it no rank holds all links, and the choice does without links_inside.
     std::int64_t one_rank_entries = 60'000'000;
@@ -62,6 +67,10 @@ CutResult described_partition(const std::vector<int>& labels, int parts, const s
 /// the ranks, and each graph is cut by one rank alone. Above that number every rank keeps its rows, and all
 /// share the products of each eigenvalue problem. The result has the same bytes on any number of ranks, and
 /// in both cases the same clusters.
+///
+/// With examples the parts are their labels, 0 .. parts-1, and patches whose label is known have it. Labels
+/// without an example are given to parts that no example shows. Without examples parts are numbered by
+/// decreasing mean share of the area.
 ///
 /// Collective. Throws AgreedError: usage (parts out of range), input (nothing to cut), not_converged,
 /// internal.

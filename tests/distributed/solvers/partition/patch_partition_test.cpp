@@ -141,6 +141,79 @@ TEST_P(CoSegmentationCut, TheChosenStartHasTheBestScoreOfThoseThatAreNotDegenera
     }
 }
 
+/// The segments of mesh 0 are given, numbered the other way round.
+ExampleLabels labels_of_the_first_mesh(const ToyCollection& toy, int parts) {
+    ExampleLabels examples{Eigen::MatrixXd::Zero(parts, toy.patches)};
+    for (int i = 0; i < toy.patches; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (toy.mesh_of[k] == 0) examples.area(parts - 1 - toy.truth[k], i) = toy.area[k];
+    }
+    return examples;
+}
+
+CutResult cut_by_example(const Comm& comm, const ToyCollection& toy, int parts, const ExampleLabels& examples,
+                         std::int64_t one_rank_entries = 1'000'000) {
+    const std::vector<ChoiceDescriptor> descriptors = {
+        {histograms_of(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
+    const FeatureMatrices features({Eigen::MatrixXd(descriptors[0].histograms.cast<double>())});
+    CutOptions options = pooled(parts);
+    options.one_rank_entries = one_rank_entries;
+    return partition_patches(comm,
+                             {.coefficients = toy.coefficients,
+                              .neighbors_local = toy.neighbors,
+                              .overlaps_local = toy.overlaps,
+                              .mesh_of = toy.mesh_of,
+                              .patch_area = toy.area,
+                              .descriptors = descriptors,
+                              .examples = &examples,
+                              .features = &features},
+                             options);
+}
+
+TEST_P(CoSegmentationCut, GivesAllMeshesTheLabelsOfTheExample) {
+    const Comm comm(MPI_COMM_WORLD);
+    const Comm self(MPI_COMM_SELF);
+    const int parts = GetParam();
+    const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
+    const ExampleLabels examples = labels_of_the_first_mesh(toy, parts);
+    const CutResult result = cut_by_example(comm, toy, parts, examples);
+    std::vector<int> expected;
+    for (const int segment : toy.truth) expected.push_back(parts - 1 - segment);
+    EXPECT_EQ(result.part_of_patch, expected);
+    const ToyCollection alone = toy_collection(self, 6, parts, 6, 77);
+    expect_same_result(result, cut_by_example(self, alone, parts, examples));
+    EXPECT_EQ(cut_by_example(comm, toy, parts, examples, 0).part_of_patch, expected)
+        << "where all ranks share each graph";
+}
+
+TEST_P(CoSegmentationCut, KeepsWhatAnExampleSaysAgainstAllElse) {
+    const Comm comm(MPI_COMM_WORLD);
+    const int parts = GetParam();
+    const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
+    ExampleLabels examples = labels_of_the_first_mesh(toy, parts);
+    // One patch is said to be what it is not, and of another one nothing is said.
+    const int wrong = (toy.truth[3] + 1) % parts;
+    examples.area.col(3).setZero();
+    examples.area(parts - 1 - wrong, 3) = toy.area[3];
+    examples.area.col(8).setZero();
+    const CutResult result = cut_by_example(comm, toy, parts, examples);
+    EXPECT_EQ(result.part_of_patch[3], parts - 1 - wrong);
+    EXPECT_EQ(result.part_of_patch[8], parts - 1 - toy.truth[8]);
+}
+
+TEST_P(CoSegmentationCut, ALabelWithoutExampleGoesToThePartThatNoExampleShows) {
+    const Comm comm(MPI_COMM_WORLD);
+    const int parts = GetParam();
+    if (parts == 2) return;  // one label alone says nothing of where the other one begins
+    const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
+    ExampleLabels examples = labels_of_the_first_mesh(toy, parts);
+    examples.area.row(parts - 1).setZero();  // of segment 0
+    const CutResult result = cut_by_example(comm, toy, parts, examples);
+    std::vector<int> expected;
+    for (const int segment : toy.truth) expected.push_back(parts - 1 - segment);
+    EXPECT_EQ(result.part_of_patch, expected);
+}
+
 INSTANTIATE_TEST_SUITE_P(Parts, CoSegmentationCut, testing::Values(2, 3, 5));
 
 /// Two parts of eight patches in each of five meshes, one above the other. Patches are linked to all of the

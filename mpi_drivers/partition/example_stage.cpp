@@ -1,0 +1,155 @@
+#include "mpi_drivers/partition/example_stage.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "io/data_files/label_file.hpp"
+#include "mpi_drivers/describe/patch_gather.hpp"
+#include "src/base/error.hpp"
+#include "src/base/index.hpp"
+#include "src/base/text.hpp"
+#include "src/parallel/record_exchange.hpp"
+#include "src/patches/patch_label_areas.hpp"
+
+namespace coseg {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* label_suffix = ".seg";
+constexpr int most_parts = 1000;
+
+std::string label_path(const std::string& folder, const std::string& name) {
+    return folder + "/" + name + label_suffix;
+}
+
+/// The names of the shapes that FOLDER has labels of, sorted.
+std::vector<std::string> example_names(const std::string& folder) {
+    std::error_code failure;
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+        if (entry.path().extension() == label_suffix) names.push_back(entry.path().stem().string());
+    }
+    if (failure) throw Error(ExitCode::input, "--examples " + folder + ": " + failure.message());
+    if (names.empty())
+        throw Error(ExitCode::input, "--examples " + folder + ": there is no label file NAME.seg in it");
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// Labels 0 .. parts-1, and -1 for faces of which nothing is said.
+std::vector<int> read_example(const std::string& path, int parts, int faces = -1) {
+    std::vector<int> labels = read_labels(path, faces);
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+        if (labels[f] >= -1 && labels[f] < parts) continue;
+        const std::string where =
+            path + ": face " + std::to_string(f) + " has label " + std::to_string(labels[f]);
+        throw Error(ExitCode::input, labels[f] < 0
+                                         ? where + "; labels are 0, 1, ..., or -1 where nothing is said"
+                                         : where + ", but there are " + std::to_string(parts) +
+                                               " parts; labels count from 0, and --parts says how many");
+    }
+    return labels;
+}
+
+int labels_in(const std::string& folder) {
+    int largest = -1;
+    for (const std::string& name : example_names(folder)) {
+        const std::vector<int> labels = read_example(label_path(folder, name), most_parts);
+        if (!labels.empty()) largest = std::max(largest, *std::max_element(labels.begin(), labels.end()));
+    }
+    if (largest < 0) throw Error(ExitCode::input, "--examples " + folder + ": no face has a label");
+    return largest + 1;
+}
+
+/// Of one mesh: parts x its patches, its over-segmentations in order.
+Eigen::MatrixXd label_areas(const MeshDescription& mesh, const std::vector<int>& label_of_input_face,
+                            int parts) {
+    std::vector<int> labels;
+    for (const int face : mesh.map.input_face)
+        labels.push_back(label_of_input_face.empty() ? -1 : label_of_input_face[at(face)]);
+    Eigen::Index patches = 0;
+    for (const int count : mesh.patch_counts) patches += count;
+    Eigen::MatrixXd areas(parts, patches);
+    Eigen::Index first = 0;
+    for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
+        areas.middleCols(first, mesh.patch_counts[s]) =
+            patch_label_areas(mesh.patches[s], mesh.patch_counts[s], labels, parts, mesh.geometry.area);
+        first += mesh.patch_counts[s];
+    }
+    return areas;
+}
+
+void refuse_strangers(const Collection& collection, const std::vector<std::string>& names,
+                      const std::string& folder) {
+    std::set<std::string> known;
+    for (const MeshFacts& mesh : collection.meshes) known.insert(mesh.name);
+    for (const std::string& name : names) {
+        if (known.count(name) == 0)
+            throw Error(ExitCode::input,
+                        label_path(folder, name) +
+                            ": no shape of this name is segmented; it is not among the meshes, or "
+                            "it was set aside");
+    }
+}
+
+void warn_of_labels_without_example(const Eigen::MatrixXd& areas, const StageLog& log) {
+    for (Eigen::Index label = 0; label < areas.rows(); ++label) {
+        if (areas.row(label).sum() <= 0.0)
+            log.warn("no example shows label " + std::to_string(label) +
+                     "; it becomes a part that no example has");
+    }
+}
+
+}  // namespace
+
+RunOptions with_parts_of_examples(const Comm& comm, const RunOptions& options) {
+    RunOptions result = options;
+    PartitionOptions& partition = result.partition;
+    if (partition.examples.empty()) {
+        if (partition.parts == 0) throw AgreedError(ExitCode::usage, "--parts is required");
+        return result;
+    }
+    int labels = 0;
+    agree(comm, [&] {
+        if (comm.is_root()) labels = labels_in(partition.examples);
+    });
+    broadcast(comm, labels);
+    if (partition.parts == 0) partition.parts = labels;
+    if (labels > partition.parts)
+        throw AgreedError(ExitCode::input, "--examples " + partition.examples + ": there is a label " +
+                                               std::to_string(labels - 1) + ", which needs --parts " +
+                                               std::to_string(labels) + " or more; labels count from 0");
+    return result;
+}
+
+GivenLabels read_examples(const Comm& comm, const Collection& collection, const PartitionOptions& options,
+                          StageLog& log) {
+    GivenLabels given;
+    if (options.examples.empty()) return given;
+    log.begin("examples");
+    std::vector<std::string> names;
+    std::vector<Eigen::MatrixXd> local;
+    agree(comm, [&] {
+        names = example_names(options.examples);
+        refuse_strangers(collection, names, options.examples);
+        for (const MeshDescription& mesh : collection.local) {
+            const std::string& name = collection.meshes[at(mesh.mesh)].name;
+            const bool is_example = std::binary_search(names.begin(), names.end(), name);
+            given.faces.push_back(is_example ? read_example(label_path(options.examples, name), options.parts,
+                                                            mesh.map.input_faces)
+                                             : std::vector<int>{});
+            local.push_back(label_areas(mesh, given.faces.back(), options.parts));
+        }
+    });
+    given.patches.area = gather_patch_columns(comm, collection, local, options.parts);
+    warn_of_labels_without_example(given.patches.area, log);
+    log.end(with_unit(static_cast<std::int64_t>(names.size()), "shape with labels", "shapes with labels"));
+    return given;
+}
+
+}  // namespace coseg

@@ -1,0 +1,35 @@
+#pragma once
+// Labels by example: reads the labels that a user gives for some of the shapes (--examples).
+
+#include <vector>
+
+#include "mpi_drivers/describe/mesh_stage.hpp"
+#include "mpi_drivers/options/run_options.hpp"
+#include "solvers/partition/example_scores.hpp"
+#include "src/parallel/comm.hpp"
+#include "src/parallel/stage_log.hpp"
+
+namespace coseg {
+
+/// The options with a number of parts: without --parts it is that of the labels in the examples, the largest
+/// of them plus 1. Rank 0 reads them. Collective. Throws AgreedError: usage without --parts and --examples;
+/// input for a folder that cannot be read or has no NAME.seg, a file that is no label file, a label below -1,
+/// and a label that is not below --parts.
+RunOptions with_parts_of_examples(const Comm& comm, const RunOptions& options);
+
+/// What the examples say of a collection.
+struct GivenLabels {
+    ExampleLabels patches;  ///< on all ranks; empty without examples
+    /// Of each mesh of collection.local: the label of each face of its file, -1 where nothing is said; empty
+    /// for a mesh that is no example.
+    std::vector<std::vector<int>> faces;
+};
+
+/// Each rank reads the labels of its meshes, FOLDER/NAME.seg. folder: "" for none. The log has the stage
+/// "examples", and a warning for each label below `parts` that no example shows. Collective. Throws
+/// AgreedError(input) where a file has not one label for each face, or is named like no shape of the
+/// collection.
+GivenLabels read_examples(const Comm& comm, const Collection& collection, const PartitionOptions& options,
+                          StageLog& log);
+
+}  // namespace coseg

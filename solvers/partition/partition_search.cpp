@@ -1,0 +1,167 @@
+#include "solvers/partition/partition_search.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "solvers/partition/cluster_merging.hpp"
+#include "solvers/partition/labelled_parts.hpp"
+#include "solvers/partition/part_shares.hpp"
+#include "solvers/partition/patch_moves.hpp"
+#include "src/base/index.hpp"
+#include "src/parallel/record_exchange.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// Partitions that are improved by moves of single patches: those with the best scores.
+constexpr std::size_t finalists = 12;
+
+/// Finds terms and score of the labels.
+void describe_labels(const SearchTask& task, PartitionCandidate& result) {
+    const PartitionEvidence& evidence = task.evidence;
+    const Eigen::MatrixXd shares =
+        area_shares(result.labels, task.parts, evidence.patch_area, evidence.mesh_of);
+    StartOutcome& outcome = result.outcome;
+    outcome.parts_found = static_cast<int>((shares.rowwise().maxCoeff().array() > 0.0).count());
+    outcome.degenerate = is_degenerate(shares);
+    outcome.terms = partition_terms(evidence, result.labels, task.parts);
+    outcome.score = partition_score(outcome.terms, task.weights, evidence.descriptors);
+}
+
+/// The same after the parts are numbered, so that partitions that are the same have the same terms to the
+/// last bit.
+void describe_outcome(const SearchTask& task, PartitionCandidate& result) {
+    result.labels =
+        canonical_labels(result.labels, task.parts, task.evidence.patch_area, task.evidence.mesh_of);
+    describe_labels(task, result);
+}
+
+/// Merges the clusters into parts in several ways, of which the one with the best score is taken.
+PartitionCandidate merged(const SearchTask& task, const PartitionCandidate& clustering) {
+    const int clusters = 1 + *std::max_element(clustering.labels.begin(), clustering.labels.end());
+    if (clusters <= task.parts) {
+        PartitionCandidate same = clustering;
+        describe_outcome(task, same);
+        return same;
+    }
+    const ClusterSums sums = cluster_sums(task.objective, clustering.labels, clusters);
+    std::optional<PartitionCandidate> best;
+    for (const std::vector<int>& part_of : merge_clusters(sums, task.parts)) {
+        PartitionCandidate result = clustering;
+        for (int& label : result.labels) label = part_of[at(label)];
+        describe_outcome(task, result);
+        if (!best || result.outcome.score > best->outcome.score) best = std::move(result);
+    }
+    return std::move(*best);
+}
+
+/// The outcome after moves of single patches, or the same one where these raise the objective but, as it
+/// leaves out a term, not the score.
+PartitionCandidate improved(const SearchTask& task, PartitionCandidate outcome) {
+    MovedPatches moved = move_patches(task.objective, outcome.labels, task.parts);
+    PartitionCandidate after = outcome;
+    after.labels = std::move(moved.labels);
+    after.outcome.moved = moved.moved;
+    describe_outcome(task, after);
+    const bool is_better =
+        after.outcome.score > outcome.outcome.score && after.outcome.degenerate <= outcome.outcome.degenerate;
+    return is_better ? std::move(after) : std::move(outcome);
+}
+
+/// Outcomes with the most parts, none of them degenerate; or, if there are none, the others with the most.
+std::vector<char> eligible_outcomes(const std::vector<PartitionCandidate>& outcomes) {
+    int most = 0;
+    for (const PartitionCandidate& r : outcomes) most = std::max(most, r.outcome.parts_found);
+    std::vector<char> eligible;
+    bool any = false;
+    for (const PartitionCandidate& r : outcomes) {
+        eligible.push_back(r.outcome.parts_found == most && !r.outcome.degenerate ? 1 : 0);
+        any = any || eligible.back() != 0;
+    }
+    for (std::size_t k = 0; k < outcomes.size() && !any; ++k)
+        eligible[k] = outcomes[k].outcome.parts_found == most ? 1 : 0;
+    return eligible;
+}
+
+/// Numbers of outcomes: the eligible ones first, then by falling score, of equal ones the first.
+std::vector<std::size_t> ranking(const std::vector<PartitionCandidate>& outcomes) {
+    const std::vector<char> eligible = eligible_outcomes(outcomes);
+    std::vector<std::size_t> order(outcomes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        if (eligible[a] != eligible[b]) return eligible[a] > eligible[b];
+        return outcomes[a].outcome.score > outcomes[b].outcome.score;
+    });
+    return order;
+}
+
+/// The different partitions among the best.
+std::vector<std::size_t> best_outcomes(const std::vector<PartitionCandidate>& outcomes) {
+    std::vector<std::size_t> best;
+    for (const std::size_t k : ranking(outcomes)) {
+        const bool is_new = std::none_of(best.begin(), best.end(), [&](std::size_t other) {
+            return outcomes[other].labels == outcomes[k].labels;
+        });
+        if (is_new) best.push_back(k);
+        if (best.size() == finalists) break;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<PartitionCandidate> search_partitions(const Comm& comm, const SearchTask& task,
+                                                  std::vector<PartitionCandidate> clusterings) {
+    for (PartitionCandidate& r : clusterings) r = merged(task, r);
+    std::vector<PartitionCandidate> outcomes = all_gather_records(comm, clusterings);
+    std::sort(outcomes.begin(), outcomes.end(),
+              [](const PartitionCandidate& a, const PartitionCandidate& b) { return a.index < b.index; });
+    if (outcomes.size() == 1) return outcomes;
+    const std::vector<std::size_t> best = best_outcomes(outcomes);
+    std::vector<PartitionCandidate> mine;
+    for (auto k = at(comm.rank()); k < best.size(); k += at(comm.size()))
+        mine.push_back(improved(task, outcomes[best[k]]));
+    for (PartitionCandidate& r : all_gather_records(comm, mine)) outcomes[at(r.index)] = std::move(r);
+    return outcomes;
+}
+
+std::size_t best_candidate(const std::vector<PartitionCandidate>& candidates) {
+    return ranking(candidates).front();
+}
+
+PartitionCandidate expanded(const Comm& comm, const SearchTask& task, PartitionCandidate outcome) {
+    const auto score = [&](const std::vector<int>& labels) {
+        PartitionCandidate tried = outcome;
+        tried.labels = labels;
+        describe_labels(task, tried);
+        const bool is_worse = tried.outcome.parts_found < outcome.outcome.parts_found ||
+                              tried.outcome.degenerate > outcome.outcome.degenerate;
+        return is_worse ? -std::numeric_limits<double>::infinity() : tried.outcome.score;
+    };
+    outcome.labels = climb_by_expansion(comm, task.objective, {}, outcome.labels, task.parts, score);
+    describe_outcome(task, outcome);
+    return outcome;
+}
+
+PartitionCandidate labelled(const Comm& comm, const SearchTask& task, const Eigen::MatrixXd& scores,
+                            const KnownParts& known, PartitionCandidate outcome) {
+    outcome.labels = named_parts(scores, outcome.labels, task.evidence.patch_area);
+    for (std::size_t i = 0; i < outcome.labels.size(); ++i) {
+        if (known.fixed[i] >= 0) outcome.labels[i] = known.fixed[i];
+    }
+    const auto score = [&](const std::vector<int>& labels) {
+        PartitionCandidate tried = outcome;
+        tried.labels = labels;
+        describe_labels(task, tried);
+        return tried.outcome.score + gain_of(known, labels);
+    };
+    outcome.labels = climb_by_expansion(comm, task.objective, known, outcome.labels, task.parts, score);
+    describe_labels(task, outcome);
+    return outcome;
+}
+
+}  // namespace coseg

@@ -1,0 +1,55 @@
+#pragma once
+// The search for the partition with the best score: clusters are merged, and the best results improved.
+
+#include <tuple>
+#include <vector>
+
+#include "solvers/partition/part_expansion.hpp"
+#include "solvers/partition/partition_objective.hpp"
+#include "src/parallel/comm.hpp"
+#include "src/records/start_outcome.hpp"
+
+namespace coseg {
+
+/// What came of the start of this number: its clusters, then its parts.
+struct PartitionCandidate {
+    int index = 0;
+    StartOutcome outcome;
+    std::vector<int> labels;          ///< of patches: clusters, then parts
+    std::vector<double> eigenvalues;  ///< as in CutResult
+    static constexpr auto fields() {
+        return std::tuple(field("index", &PartitionCandidate::index),
+                          field("outcome", &PartitionCandidate::outcome),
+                          field("labels", &PartitionCandidate::labels),
+                          field("eigenvalues", &PartitionCandidate::eigenvalues));
+    }
+};
+
+/// What all steps of a search look at, the same on all ranks.
+struct SearchTask {
+    const PartitionEvidence& evidence;
+    const PartitionObjective& objective;  ///< of the evidence
+    const ChoiceWeights& weights;
+    int parts = 2;
+};
+
+/// All starts, merged into parts in the way with the best score, in the order of their numbers; the best of
+/// them are improved by moves of single patches. Parts are numbered by canonical_labels. `clusterings` are
+/// those of this rank. Collective.
+std::vector<PartitionCandidate> search_partitions(const Comm& comm, const SearchTask& task,
+                                                  std::vector<PartitionCandidate> clusterings);
+
+/// The number of the candidate to take: of those with the most parts, none of them degenerate, the one with
+/// the highest score; or, if there is none, of the degenerate ones.
+std::size_t best_candidate(const std::vector<PartitionCandidate>& candidates);
+
+/// The candidate after expansions of its parts (climb_by_expansion). Degenerate parts come of these only
+/// where there were some. Collective.
+PartitionCandidate expanded(const Comm& comm, const SearchTask& task, PartitionCandidate outcome);
+
+/// The candidate with labels for its parts, by named_parts, and after expansions with what is known of
+/// patches. Collective.
+PartitionCandidate labelled(const Comm& comm, const SearchTask& task, const Eigen::MatrixXd& scores,
+                            const KnownParts& known, PartitionCandidate outcome);
+
+}  // namespace coseg

@@ -1,0 +1,136 @@
+// Scores of labels against the ridge regression written out, and what is known of patches.
+
+#include "solvers/partition/example_scores.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "solvers/partition/labelled_parts.hpp"
+#include "src/base/error.hpp"
+#include "src/base/index.hpp"
+#include "src/base/seeded_random.hpp"
+
+namespace coseg {
+namespace {
+
+/// Patches with random features, in a row where each touches the next, in any place.
+struct Patches {
+    int count;
+    FeatureMatrices features;
+    std::vector<GlobalPatchNeighbors> neighbors;
+    Eigen::Matrix3Xd positions;
+    PositionFrame frame;
+    std::vector<double> area;
+    ExampleLabels examples;
+
+    Patches(int patches, int examples_of, std::uint64_t seed) : count(patches) {
+        SeededStream random(seed);
+        const auto numbers = [&](int rows) {
+            Eigen::MatrixXd x(rows, count);
+            for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = random.uniform();
+            return x;
+        };
+        features = FeatureMatrices({numbers(3), numbers(2)});
+        positions = numbers(3);
+        frame.mean = {0.1, 0.2, 0.3};
+        frame.directions << 2, 0, 0, 0.3, 1, 0, 0, 0.1, 3;
+        frame.correlation = {0.1, 0.5, 0.9};
+        examples.area = Eigen::MatrixXd::Zero(3, count);
+        for (int i = 0; i < count; ++i) {
+            area.push_back(0.5 + random.uniform());
+            if (i + 1 < count) neighbors.push_back({i, i + 1, 0.1 + random.uniform(), 0.0});
+            if (i < examples_of) examples.area(i % 2, i) = (i % 3 == 0 ? 0.3 : 1.0) * area.back();
+        }
+    }
+    [[nodiscard]] ScoreInput input() const { return {features, neighbors, &positions, frame, area}; }
+
+    /// All that a score may look at, a column a patch.
+    [[nodiscard]] Eigen::MatrixXd all_features() const {
+        Eigen::MatrixXd x = Eigen::MatrixXd::Zero(13, count);
+        for (int i = 0; i < count; ++i) {
+            x.col(i).head(5) << features[0].col(i), features[1].col(i);
+            double length = 0.0;
+            for (const GlobalPatchNeighbors& n : neighbors) {
+                if (n.patch_a != i && n.patch_b != i) continue;
+                const int other = n.patch_a == i ? n.patch_b : n.patch_a;
+                Eigen::VectorXd near(5);
+                near << features[0].col(other), features[1].col(other);
+                x.col(i).segment(5, 5) += n.boundary_length * near;
+                length += n.boundary_length;
+            }
+            x.col(i).segment(5, 5) /= length;
+            for (int k = 0; k < 3; ++k) {
+                x(10 + k, i) = frame.correlation(k) / std::sqrt(3.0) *
+                               frame.directions.col(k).dot(positions.col(i) - frame.mean);
+            }
+        }
+        return x;
+    }
+};
+
+/// Normal equations with an unpenalised constant as one more feature.
+Eigen::MatrixXd regression(const Patches& patches) {
+    const Eigen::MatrixXd x = patches.all_features();
+    const Eigen::VectorXd said = patches.examples.area.colwise().sum().transpose();
+    const auto n = static_cast<double>((said.array() > 0.0).count());
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(14, 14);
+    normal.diagonal().head(13).setOnes();
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(14, 3);
+    Eigen::MatrixXd with_one(14, patches.count);
+    with_one << x, Eigen::RowVectorXd::Ones(patches.count);
+    for (int i = 0; i < patches.count; ++i) {
+        if (said(i) <= 0.0) continue;
+        const double weight = said(i) * n / said.sum();
+        normal += weight * with_one.col(i) * with_one.col(i).transpose();
+        right += weight * with_one.col(i) * (patches.examples.area.col(i) / said(i)).transpose();
+    }
+    return (normal.lu().solve(right)).transpose() * with_one;
+}
+
+TEST(ExampleScores, AreTheRidgeRegressionOfTheLabelsWithFewAndWithManyExamples) {
+    for (const int examples : {7, 30}) {
+        const Patches patches(40, examples, 5);
+        const Eigen::MatrixXd scores = example_scores(patches.input(), patches.examples);
+        const Eigen::MatrixXd expected = regression(patches);
+        const std::vector<int> known = known_labels(patches.examples, patches.area);
+        for (int i = 0; i < patches.count; ++i) {
+            if (known[at(i)] < 0) {
+                EXPECT_NEAR((scores.col(i) - expected.col(i)).head(2).norm(), 0.0, 1e-9)
+                    << examples << " " << i;
+                EXPECT_NEAR(scores.col(i).sum(), 1.0, 1e-9);
+                EXPECT_NEAR(scores(2, i), 0.0, 1e-12) << "a label without an example";
+            } else {
+                EXPECT_EQ(scores(known[at(i)], i), 1.0);
+                EXPECT_EQ(scores.col(i).sum(), 1.0);
+            }
+        }
+    }
+}
+
+TEST(ExampleScores, PlacesOfShapesThatDoNotStandAlikeDoNotCount) {
+    Patches patches(40, 12, 5);
+    patches.frame.correlation.setZero();
+    const Eigen::MatrixXd scores = example_scores(patches.input(), patches.examples);
+    patches.positions *= -3.0;
+    EXPECT_EQ(example_scores(patches.input(), patches.examples), scores);
+}
+
+TEST(ExampleScores, ALabelIsKnownWhereHalfOfThePatchIsSaid) {
+    ExampleLabels examples{(Eigen::MatrixXd(2, 4) << 0.5, 0.49, 0.3, 0.0, 0.0, 0.0, 0.4, 0.0).finished()};
+    EXPECT_EQ(known_labels(examples, {1.0, 1.0, 1.0, 0.0}), (std::vector<int>{0, -1, 1, -1}));
+}
+
+TEST(ExampleScores, WithoutAnyLabelAreRefused) {
+    Patches patches(10, 0, 5);
+    EXPECT_THROW(example_scores(patches.input(), patches.examples), Error);
+}
+
+TEST(LabelledParts, TakeTheLabelsThatSuitThemBestEachAnother) {
+    // Label 0 suits both parts, but part 0 more.
+    const Eigen::MatrixXd scores = (Eigen::MatrixXd(2, 3) << 1.0, 0.8, 0.9, 0.0, 0.1, 0.1).finished();
+    EXPECT_EQ(named_parts(scores, {1, 0, 0}, {1.0, 1.0, 1.0}), (std::vector<int>{1, 0, 0}));
+}
+
+}  // namespace
+}  // namespace coseg

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# --examples: the labels of one shape become those of all, and what is wrong with an example is said in a sentence.
+set -euo pipefail
+# shellcheck source=tests/whole_run/fixture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
+
+"$COSEG" generate table --count 5 --seed 5 --faces 2000 --out "$work/set" >/dev/null
+mkdir "$work/one" "$work/some" "$work/none" "$work/bad" "$work/others"
+# The labels of one table, numbered the other way round; then the same for a third of its faces alone.
+python3 - "$work" <<'END'
+import glob, os, sys
+work = sys.argv[1]
+for path in sorted(glob.glob(work + "/set/truth/*.seg")):
+    labels = [1 - int(line) for line in open(path) if line.strip()]
+    name = os.path.basename(path)
+    if name == "table_0002.seg":
+        open(work + "/one/" + name, "w").write("".join(f"{label}\n" for label in labels))
+        open(work + "/some/" + name, "w").write("".join(f"{label if f % 3 == 0 else -1}\n" for f, label in enumerate(labels)))
+    open(work + "/others/" + name, "w").write("".join(f"{label}\n" for label in labels))
+END
+run=("$COSEG" run --quiet --no-html --no-sheet --patches 20 --geodesic-samples 100 --state "$work/state")
+# Area with exactly the label of the example, in percent; no assignment of labels.
+agreement() {
+    python3 - "$work" "$1" <<'END'
+import os, sys
+work, run = sys.argv[1:]
+same = total = 0
+for name in os.listdir(work + "/others"):
+    truth, labels = (open(f"{folder}/{name}").read().split() for folder in (work + "/others", f"{work}/{run}/labels"))
+    assert len(truth) == len(labels), name
+    same += sum(a == b for a, b in zip(truth, labels))
+    total += len(truth)
+print(100 * same / total)
+END
+}
+above() { python3 -c 'import sys; sys.exit(not float(sys.argv[1]) > float(sys.argv[2]))' "$1" "$2"; }
+
+"${run[@]}" --examples "$work/one" --out "$work/by_one" "$work/set/meshes"
+cmp "$work/one/table_0002.seg" "$work/by_one/labels/table_0002.seg" || fail "the example does not keep its labels"
+ranks 2 "${run[@]}" --examples "$work/some" --out "$work/by_some" "$work/set/meshes"
+echo "faces with the label of the example: $(agreement by_one) %, of a third of its faces: $(agreement by_some) %"
+above "$(agreement by_one)" 97 || fail "the others do not have the labels of the example"
+above "$(agreement by_some)" 97 || fail "the others do not have the labels of some faces of the example"
+python3 - "$work" <<'END' || fail "faces of which something is said lose it"
+import sys
+said, found = (open(f"{sys.argv[1]}/{path}/table_0002.seg").read().split() for path in ("some", "by_some/labels"))
+assert all(a in ("-1", b) for a, b in zip(said, found))
+END
+ranks 2 "$COSEG" run --quiet --no-html --no-sheet --patches 20 --geodesic-samples 100 --examples "$work/one" \
+    --out "$work/ranks2" "$work/set/meshes"
+diff -r "$work/by_one/labels" "$work/ranks2/labels" || fail "labels with and without a state folder, on 1 and on 2 ranks"
+# A label that no example shows is a part of its own, and is said.
+"${run[@]}" --examples "$work/one" --parts 3 --out "$work/three" "$work/set/meshes" 2>"$work/log"
+grep -q "no example shows label 2" "$work/log" || fail "a label without an example: $(cat "$work/log")"
+
+# What is wrong: the code, and a part of the sentence.
+refused() {
+    local code=$1 sentence=$2
+    shift 2
+    local got=0
+    "${run[@]}" --out "$work/refused" "$@" "$work/set/meshes" 2>"$work/log" || got=$?
+    [[ $got == "$code" ]] || fail "exit code $got instead of $code: $(cat "$work/log")"
+    grep -q -- "$sentence" "$work/log" || fail "'$sentence' is not in: $(cat "$work/log")"
+    [[ $(wc -l <"$work/log") == 1 && ! -e $work/refused ]] || fail "one sentence and nothing left: $(cat "$work/log")"
+}
+refused 2 "--parts is required"
+refused 3 "no label file NAME.seg" --examples "$work/none"
+refused 3 "No such file or directory" --examples "$work/nowhere"
+refused 2 "--examples cannot be joined" --examples "$work/one" --parts 2 --segments
+refused 3 "which needs --parts 2 or more" --examples "$work/one" --parts 1
+head -n 10 "$work/one/table_0002.seg" >"$work/bad/table_0002.seg"
+refused 3 "table_0002.seg" --examples "$work/bad"
+cp "$work/one/table_0002.seg" "$work/bad/table_0099.seg" && rm "$work/bad/table_0002.seg"
+refused 3 "no shape of this name is segmented" --examples "$work/bad"
+echo "-2" >"$work/bad/table_0099.seg"
+refused 3 "has label -2; labels are 0, 1" --examples "$work/bad"
+echo "-1" >"$work/bad/table_0099.seg"
+refused 3 "no face has a label" --examples "$work/bad"
