@@ -43,7 +43,7 @@ void assign(const Comm& comm, const std::string& run, const RunOptions& own,
 
     // The parts of faces, as in the run.
     const std::vector<MeshLabels> labels =
-        label_faces(collection, assigned.cut.part_of_patch, partition.parts, output.refine, log);
+        label_faces(collection, assigned.cut, partition.parts, output.refine, log);
 
     std::vector<OptionValue> values = option_values(options);
     values.push_back({"to", run, Affects::cut});

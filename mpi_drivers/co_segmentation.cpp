@@ -59,7 +59,7 @@ void co_segment(const Comm& comm, const RunOptions& given, const std::vector<std
     // The parts of faces: a vote of the over-segmentations, and boundaries that follow creases.
     const std::vector<int>& part_of_patch = partitioned.cut.part_of_patch;
     const std::vector<MeshLabels> labels =
-        label_faces(collection, part_of_patch, partition.parts, output.refine, log, examples.faces);
+        label_faces(collection, partitioned.cut, partition.parts, output.refine, log, examples.faces);
     CheckedPetsc::refuse_unused(comm);
 
     if (output.keep_model)

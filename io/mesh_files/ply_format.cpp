@@ -319,30 +319,33 @@ bool needs_long_count(const PolygonMesh& mesh) {
     return false;
 }
 
-std::string header(const PolygonMesh& mesh, bool has_long_count, bool has_doubles) {
+std::string header(const PolygonMesh& mesh, bool has_long_count, bool has_doubles, bool has_confidence) {
     const std::string type = has_doubles ? "double" : "float";
     return "ply\nformat binary_little_endian 1.0\ncomment coseg: faces coloured by part\nelement vertex " +
            std::to_string(mesh.vertex_count()) + "\nproperty " + type + " x\nproperty " + type +
            " y\nproperty " + type + " z\nelement face " + std::to_string(mesh.face_count()) +
            "\nproperty list " + (has_long_count ? "int" : "uchar") +
-           " int vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
+           " int vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n" +
+           (has_confidence ? "property float confidence\n" : "") + "end_header\n";
 }
 
 }  // namespace
 
 ParsedMesh read_ply(std::string_view bytes, const std::string& path) { return PlyReader(bytes, path).run(); }
 
-void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const std::vector<int>& labels) {
-    if (labels.size() != static_cast<std::size_t>(mesh.face_count())) {
+void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const std::vector<int>& labels,
+                       const std::vector<float>& confidence) {
+    if (labels.size() != static_cast<std::size_t>(mesh.face_count()) ||
+        (!confidence.empty() && confidence.size() != labels.size())) {
         throw Error(ExitCode::internal, path + ": " + std::to_string(labels.size()) + " labels for " +
                                             std::to_string(mesh.face_count()) + " faces");
     }
     const bool has_long_count = needs_long_count(mesh);
     const bool has_doubles = lost_digits(mesh).has_value();
-    std::string bytes = header(mesh, has_long_count, has_doubles);
+    std::string bytes = header(mesh, has_long_count, has_doubles, !confidence.empty());
     const std::size_t vertex_bytes = 3 * (has_doubles ? sizeof(double) : sizeof(float));
     bytes.reserve(bytes.size() + vertex_bytes * mesh.vertices.size() + 4 * mesh.corners.size() +
-                  7 * labels.size());
+                  11 * labels.size());
     for (const Eigen::Vector3d& p : mesh.vertices) {
         for (const double value : p) {
             if (has_doubles)
@@ -361,6 +364,7 @@ void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const s
             append_little_endian(bytes, static_cast<std::int32_t>(mesh.corners[at(k)]));
         }
         for (const std::uint8_t channel : part_color(labels[f])) append_little_endian(bytes, channel);
+        if (!confidence.empty()) append_little_endian(bytes, confidence[f]);
     }
     write_file(path, bytes);
 }

@@ -21,7 +21,9 @@ ParsedMesh read_ply(std::string_view bytes, const std::string& path);
 /// where float would lose digits that the edges need (lost_digits.hpp), faces in their order with the
 /// colour of their part (part_colors.hpp) as uchar red, green, blue. labels has one entry per face. Written
 /// whole or not at all; Error(output) as in atomic_file.hpp, Error(internal) if the counts differ.
-void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const std::vector<int>& labels);
+/// `confidence` is empty, or one number a face, which becomes its float property "confidence".
+void write_colored_ply(const std::string& path, const PolygonMesh& mesh, const std::vector<int>& labels,
+                       const std::vector<float>& confidence = {});
 
 /// The same for the parts among the arrays.
 void write_ply(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);

@@ -24,14 +24,16 @@ struct ReportMesh {
     MeshFacts facts;
     int patches = 0;                ///< over all over-segmentations
     std::vector<double> part_area;  ///< share of the mesh's area, per part
+    /// The mean over the area of the probability that a face has the right part; none where it is not known.
+    std::optional<double> confidence;
     /// In hexadecimal digits, where they are not UTF-8 and therefore no text of JSON.
     std::optional<std::string> name_bytes;
     std::optional<std::string> path_bytes;
     static constexpr auto fields() {
-        return std::tuple(inlined(&ReportMesh::facts), field("patches", &ReportMesh::patches),
-                          field("part_area", &ReportMesh::part_area),
-                          field("name_bytes", &ReportMesh::name_bytes),
-                          field("path_bytes", &ReportMesh::path_bytes));
+        return std::tuple(
+            inlined(&ReportMesh::facts), field("patches", &ReportMesh::patches),
+            field("part_area", &ReportMesh::part_area), field("confidence", &ReportMesh::confidence),
+            field("name_bytes", &ReportMesh::name_bytes), field("path_bytes", &ReportMesh::path_bytes));
     }
 };
 

@@ -28,9 +28,9 @@ struct PartitionInput {
     const ExampleLabels* examples = nullptr;  ///< null where there are none
 };
 
-/// Takes from the features what the cut uses. `examples` are not copied. The rest is freed: in a large collection it is most of the
-/// memory, which the cut needs for its graphs. Collective where the features are the last handle of their
-/// memory.
+/// Takes from the features what the cut uses; `examples` are not copied. The rest is freed: in a large
+/// collection it is most of the memory, which the cut needs for its graphs. Collective where the features are
+/// the last handle of their memory.
 PartitionInput partition_input(const Collection& collection, PatchFeatures features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                const ExampleLabels& examples = {});

@@ -1,5 +1,6 @@
 #include "mpi_drivers/results/label_stage.hpp"
 
+#include <numeric>
 #include <utility>
 
 #include "solvers/boundaries/fuzzy_cut.hpp"
@@ -31,10 +32,35 @@ std::vector<double> area_shares(const MeshDescription& mesh, const std::vector<i
     return share;
 }
 
+/// Of input faces, each by the working face that has most of it, or that it takes its part from.
+std::vector<float> confidence_of_faces(const MeshDescription& mesh, const PatchNumbering& numbering,
+                                       const CutResult& cut, const std::vector<int>& part_of_input_face,
+                                       int parts) {
+    if (cut.confidence.empty() || parts < 2) return {};
+    std::vector<int> itself(mesh.map.input_face.size());
+    std::iota(itself.begin(), itself.end(), 0);
+    const std::vector<int> working = carry_labels_back(mesh.map, itself, mesh.geometry.area);
+    std::vector<float> confidence;
+    for (std::size_t f = 0; f < working.size(); ++f) {
+        double sum = 0.0;
+        for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
+            const auto patch =
+                at(numbering.first(mesh.mesh, static_cast<int>(s)) + mesh.patches[s][at(working[f])]);
+            const bool agrees = cut.part_of_patch[patch] == part_of_input_face[f];
+            sum += agrees ? cut.confidence[patch] : (1.0 - cut.confidence[patch]) / (parts - 1);
+        }
+        confidence.push_back(static_cast<float>(sum / static_cast<double>(mesh.patches.size())));
+    }
+    return confidence;
+}
+
 /// `given`: empty, or -1 where nothing is said.
-void keep_given(const std::vector<int>& given, std::vector<int>& part_of_input_face) {
+void keep_given(const std::vector<int>& given, std::vector<int>& part_of_input_face,
+                std::vector<float>& confidence) {
     for (std::size_t f = 0; f < given.size(); ++f) {
-        if (given[f] >= 0) part_of_input_face[f] = given[f];
+        if (given[f] < 0) continue;
+        part_of_input_face[f] = given[f];
+        if (!confidence.empty()) confidence[f] = 1.0F;
     }
 }
 
@@ -52,22 +78,24 @@ std::vector<int> refined(const MeshDescription& mesh, const std::vector<int>& pa
 
 }  // namespace
 
-std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
-                                    int parts, RefineMode refine, StageLog& log,
+std::vector<MeshLabels> label_faces(const Collection& collection, const CutResult& cut, int parts,
+                                    RefineMode refine, StageLog& log,
                                     const std::vector<std::vector<int>>& given) {
     log.begin("label");
     std::vector<MeshLabels> labels;
     for (std::size_t k = 0; k < collection.local.size(); ++k) {
         const MeshDescription& mesh = collection.local[k];
-        const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, part_of_patch);
+        const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, cut.part_of_patch);
         const std::vector<int> part_of_face =
             refined(mesh, vote_face_labels(mesh.patches, part_of, parts, mesh.graph), refine);
         std::vector<int> part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area);
-        if (!given.empty()) keep_given(given[k], part);
+        std::vector<float> confidence = confidence_of_faces(mesh, collection.numbering, cut, part, parts);
+        if (!given.empty()) keep_given(given[k], part, confidence);
         std::vector<double> part_area = area_shares(mesh, part, parts);
         labels.push_back({.mesh = mesh.mesh,
                           .part = std::move(part),
                           .patch = carry_labels_back(mesh.map, mesh.patches.front(), mesh.geometry.area),
+                          .confidence = std::move(confidence),
                           .part_area = std::move(part_area)});
     }
     log.end("one part per face");

@@ -6,20 +6,25 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/stage_options.hpp"
 #include "src/parallel/stage_log.hpp"
+#include "src/records/cut_result.hpp"
 
 namespace coseg {
 
 struct MeshLabels {
     int mesh = 0;
-    std::vector<int> part;          ///< per input face, 0..K-1
-    std::vector<int> patch;         ///< per input face, patch of the first over-segmentation
+    std::vector<int> part;   ///< per input face, 0..K-1
+    std::vector<int> patch;  ///< per input face, patch of the first over-segmentation
+    /// Per input face, the probability that its part is right; empty where the cut says none.
+    std::vector<float> confidence;
     std::vector<double> part_area;  ///< K, shares of the mesh's area; 0 for a part that no face has
 };
 
-/// Labels of this rank's meshes, voted and refined. part_of_patch: N, all patches, 0 .. parts - 1. `given`:
+/// Labels of this rank's meshes, voted and refined, from the parts of all patches, 0 .. parts - 1. The
+/// confidence of a face is the mean over the over-segmentations of the probability that its part is right: c
+/// of a patch of this part, and (1 - c) / (parts - 1) of another; 1 for a face whose label is given. `given`:
 /// GivenLabels::faces, which faces keep. The log has the stage "label". Collective.
-std::vector<MeshLabels> label_faces(const Collection& collection, const std::vector<int>& part_of_patch,
-                                    int parts, RefineMode refine, StageLog& log,
+std::vector<MeshLabels> label_faces(const Collection& collection, const CutResult& cut, int parts,
+                                    RefineMode refine, StageLog& log,
                                     const std::vector<std::vector<int>>& given = {});
 
 }  // namespace coseg

@@ -43,7 +43,24 @@ std::vector<double> to_vector(const Eigen::VectorXd& values) {
     return {values.data(), values.data() + values.size()};
 }
 
-std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::MatrixXd& part_areas) {
+/// The mean confidence of each mesh over its area, on all ranks; empty where none is known.
+std::vector<double> gather_confidence(const Comm& comm, const RunOutcome& outcome) {
+    if (outcome.cut.confidence.empty()) return {};
+    std::vector<double> means(outcome.collection.meshes.size(), 0.0);
+    for (std::size_t k = 0; k < outcome.labels.size(); ++k) {
+        const MeshLabels& labels = outcome.labels[k];
+        const MeshDescription& mesh = outcome.collection.local[k];
+        for (std::size_t f = 0; f < mesh.map.input_face.size(); ++f)
+            means[at(labels.mesh)] += mesh.geometry.area[static_cast<Eigen::Index>(f)] *
+                                      static_cast<double>(labels.confidence[at(mesh.map.input_face[f])]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, means.data(), static_cast<int>(means.size()), MPI_DOUBLE, MPI_SUM,
+                  comm.raw());
+    return means;
+}
+
+std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::MatrixXd& part_areas,
+                                      const std::vector<double>& confidence) {
     std::vector<ReportMesh> rows;
     for (std::size_t m = 0; m < outcome.collection.meshes.size(); ++m) {
         const auto number = static_cast<int>(m);
@@ -51,6 +68,7 @@ std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::Ma
         rows.push_back({.facts = facts,
                         .patches = outcome.collection.numbering.count(number),
                         .part_area = to_vector(part_areas.col(number)),
+                        .confidence = confidence.empty() ? std::optional<double>() : confidence[m],
                         .name_bytes = hex_unless_utf8(facts.name),
                         .path_bytes = hex_unless_utf8(facts.path)});
     }
@@ -100,7 +118,8 @@ void write_meshes(const Comm& comm, const std::string& folder, const Collection&
             const std::string& name = collection.meshes[at(mesh.mesh)].name;
             write_labels(folder + "/labels/" + name + ".seg", labels[k].part);
             write_labels(folder + "/patches/" + name + ".seg", labels[k].patch);
-            write_colored_ply(folder + "/ply/" + name + ".ply", mesh.input, labels[k].part);
+            write_colored_ply(folder + "/ply/" + name + ".ply", mesh.input, labels[k].part,
+                              labels[k].confidence);
         }
     });
 }
@@ -120,7 +139,7 @@ void write_run_report(const Comm& comm, const std::string& folder, const RunOutc
     report.features.ranges = outcome.ranges;
     add_strengths(report.features, strength, outcome);
     report.state = outcome.state;
-    report.meshes = report_meshes(outcome, part_areas);
+    report.meshes = report_meshes(outcome, part_areas, gather_confidence(comm, outcome));
     report.set_aside = outcome.collection.set_aside;
     std::vector<std::pair<std::string, std::string>> options;
     for (const OptionValue& option : outcome.options) options.emplace_back(option.key, option.value);

@@ -7,22 +7,16 @@ namespace coseg {
 namespace {
 
 /// The patches of each mesh, ascending.
-std::vector<std::vector<int>> patches_of_meshes(const PartitionObjective& objective) {
-    std::vector<std::vector<int>> patches(at(objective.meshes));
-    for (std::size_t i = 0; i < objective.mesh_of.size(); ++i)
-        patches[at(objective.mesh_of[i])].push_back(static_cast<int>(i));
-    return patches;
-}
-
 void sum_deviations(const PartitionObjective& objective, const std::vector<int>& labels, ClusterSums& sums) {
     const Eigen::Index rows = objective.deviations.rows();
     const Eigen::Index clusters = sums.area.rows();
     const Eigen::VectorXd per_mesh = objective.per_mesh.cast<double>();
     const Eigen::VectorXd pooled = objective.pooled.cast<double>();
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, clusters);
-    for (const std::vector<int>& patches : patches_of_meshes(objective)) {
+    for (const BlockRange patches : patches_of_meshes(objective)) {
         Eigen::MatrixXd of_mesh = Eigen::MatrixXd::Zero(rows, clusters);
-        for (const int i : patches) of_mesh.col(labels[at(i)]) += objective.deviations.col(i).cast<double>();
+        for (auto i = patches.begin; i < patches.end; ++i)
+            of_mesh.col(labels[at(i)]) += objective.deviations.col(i).cast<double>();
         sums.per_mesh.emplace_back(of_mesh.transpose() * per_mesh.asDiagonal() * of_mesh);
         all += of_mesh;
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solvers/boundaries/minimum_cut.hpp"
+#include "solvers/partition/part_gains.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/block_range.hpp"
 
@@ -18,45 +19,6 @@ constexpr double least_gain = 1e-9;
 /// Passes over all parts in a mesh. A third one hardly ever changes a patch.
 constexpr int sweeps = 2;
 
-/// The sums over the parts, in all meshes, that derivatives are found from.
-struct PooledSums {
-    Eigen::MatrixXf deviations;  ///< D x K
-    Eigen::VectorXd area;        ///< K
-    Eigen::VectorXd share;       ///< K
-    Eigen::MatrixXd share_in;    ///< K x M
-};
-
-PooledSums pooled_sums(const PartitionObjective& objective, const std::vector<int>& labels, int parts) {
-    PooledSums sums{Eigen::MatrixXf::Zero(objective.deviations.rows(), parts), Eigen::VectorXd::Zero(parts),
-                    Eigen::VectorXd::Zero(parts), Eigen::MatrixXd::Zero(parts, objective.meshes)};
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        const int part = labels[i];
-        sums.deviations.col(part) += objective.deviations.col(static_cast<Eigen::Index>(i));
-        sums.area(part) += objective.area[i];
-        sums.share_in(part, objective.mesh_of[i]) += objective.share[i];
-    }
-    sums.share = sums.share_in.rowwise().sum();
-    return sums;
-}
-
-/// The derivative of |X|^2 / a, in the weighted norm, when a patch joins: K x n, for n columns `x`.
-Eigen::MatrixXd explained_gains(const Eigen::MatrixXf& sums, const Eigen::VectorXd& area,
-                                const Eigen::VectorXf& weight, const Eigen::MatrixXf& x,
-                                const Eigen::VectorXd& patch_area) {
-    const Eigen::MatrixXf weighted = weight.asDiagonal() * sums;
-    Eigen::MatrixXd gains = (weighted.transpose() * x).cast<double>();
-    for (Eigen::Index part = 0; part < gains.rows(); ++part) {
-        if (area(part) <= 0.0) {
-            gains.row(part).setZero();
-            continue;
-        }
-        const double square = weighted.col(part).dot(sums.col(part));
-        gains.row(part) *= 2.0 / area(part);
-        gains.row(part) -= (square / (area(part) * area(part))) * patch_area.transpose();
-    }
-    return gains;
-}
-
 /// The expansions in one mesh. Patches are numbered from its first.
 class MeshExpansion {
   public:
@@ -66,8 +28,9 @@ class MeshExpansion {
         labels_.assign(labels.begin() + patches.begin, labels.begin() + patches.end);
     }
 
-    std::vector<int> run(const PooledSums& pooled, const std::vector<int>& all_labels) {
-        find_gains(pooled);
+    std::vector<int> run(const PartGains& gains, const std::vector<int>& all_labels) {
+        gains_ = gains.of_mesh({first_, first_ + count()});
+        if (known_.gain.size() > 0) gains_ += known_.gain.middleCols(first_, count());
         find_ties(all_labels);
         for (int sweep = 0; sweep < sweeps; ++sweep) {
             bool changed = false;
@@ -87,32 +50,6 @@ class MeshExpansion {
     [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(labels_.size()); }
     [[nodiscard]] bool is_fixed(int i) const {
         return !known_.fixed.empty() && known_.fixed[at(first_ + i)] >= 0;
-    }
-
-    void find_gains(const PooledSums& pooled) {
-        const Eigen::MatrixXf x = objective_.deviations.middleCols(first_, count());
-        const Eigen::Map<const Eigen::VectorXd> area(objective_.area.data() + first_, count());
-        const Eigen::Map<const Eigen::VectorXd> share(objective_.share.data() + first_, count());
-        const Eigen::Index parts = pooled.area.size();
-        Eigen::MatrixXf own = Eigen::MatrixXf::Zero(x.rows(), parts);
-        Eigen::VectorXd own_area = Eigen::VectorXd::Zero(parts);
-        for (Eigen::Index i = 0; i < count(); ++i) {
-            own.col(labels_[at(i)]) += x.col(i);
-            own_area(labels_[at(i)]) += area(i);
-        }
-        gains_ = explained_gains(own, own_area, objective_.per_mesh, x, area) +
-                 explained_gains(pooled.deviations, pooled.area, objective_.pooled, x, area);
-        const int mesh = objective_.mesh_of[at(first_)];
-        for (Eigen::Index part = 0; part < parts; ++part) {
-            const double sum = pooled.share(part);
-            if (sum <= 0.0) continue;
-            // Of (variance / mean) = squares / sum - sum / M.
-            const double slope = 2.0 * pooled.share_in(part, mesh) / sum -
-                                 pooled.share_in.row(part).squaredNorm() / (sum * sum) -
-                                 1.0 / objective_.meshes;
-            gains_.row(part) -= objective_.size_weight * slope * share.transpose();
-        }
-        if (known_.gain.size() > 0) gains_ += known_.gain.middleCols(first_, count());
     }
 
     /// Ties inside the mesh stay ties; those to other meshes become gains.
@@ -176,29 +113,18 @@ class MeshExpansion {
     std::vector<Tie> ties_;
 };
 
-/// The patches of each mesh; they follow one another.
-std::vector<BlockRange> patches_of_meshes(const std::vector<int>& mesh_of, int meshes) {
-    std::vector<BlockRange> ranges(at(meshes));
-    for (std::size_t i = 0; i < mesh_of.size(); ++i) {
-        BlockRange& range = ranges[at(mesh_of[i])];
-        if (range.begin == range.end) range.begin = static_cast<std::int64_t>(i);
-        range.end = static_cast<std::int64_t>(i) + 1;
-    }
-    return ranges;
-}
-
 }  // namespace
 
 std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& objective, const KnownParts& known,
                               const std::vector<int>& labels, int parts) {
-    const PooledSums pooled = pooled_sums(objective, labels, parts);
-    const std::vector<BlockRange> patches = patches_of_meshes(objective.mesh_of, objective.meshes);
+    const PartGains gains(objective, labels, parts);
+    const std::vector<BlockRange> patches = patches_of_meshes(objective);
     const BlockRange mine = block_range(objective.meshes, comm.size(), comm.rank());
     std::vector<int> local;
     agree(comm, [&] {
         for (auto m = mine.begin; m < mine.end; ++m) {
             const std::vector<int> of_mesh =
-                MeshExpansion(objective, known, labels, patches[at(m)]).run(pooled, labels);
+                MeshExpansion(objective, known, labels, patches[at(m)]).run(gains, labels);
             local.insert(local.end(), of_mesh.begin(), of_mesh.end());
         }
     });

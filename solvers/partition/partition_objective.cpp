@@ -114,6 +114,16 @@ PartitionObjective partition_objective(const PartitionEvidence& evidence, const 
     return objective;
 }
 
+std::vector<BlockRange> patches_of_meshes(const PartitionObjective& objective) {
+    std::vector<BlockRange> ranges(at(objective.meshes));
+    for (std::size_t i = 0; i < objective.mesh_of.size(); ++i) {
+        BlockRange& range = ranges[at(objective.mesh_of[i])];
+        if (range.begin == range.end) range.begin = static_cast<std::int64_t>(i);
+        range.end = static_cast<std::int64_t>(i) + 1;
+    }
+    return ranges;
+}
+
 double relative_variance(double sum, double squares, int meshes) {
     const double mean = sum / meshes;
     return mean > 0.0 ? std::max(0.0, squares / meshes - mean * mean) / mean : 0.0;

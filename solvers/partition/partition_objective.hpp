@@ -6,6 +6,7 @@
 
 #include "solvers/partition/partition_terms.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/block_range.hpp"
 
 namespace coseg {
 
@@ -40,6 +41,9 @@ struct PartitionObjective {
 };
 
 PartitionObjective partition_objective(const PartitionEvidence& evidence, const ChoiceWeights& weights);
+
+/// The patches of each mesh, which follow one another.
+std::vector<BlockRange> patches_of_meshes(const PartitionObjective& objective);
 
 /// Calls visit(other, gain) for each patch that patch i is tied or linked to.
 template <class Visit>

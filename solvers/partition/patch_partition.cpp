@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solvers/partition/cut_graphs.hpp"
+#include "solvers/partition/part_confidence.hpp"
 #include "solvers/partition/part_shares.hpp"
 #include "solvers/partition/partition_search.hpp"
 #include "solvers/partition/start_clusterings.hpp"
@@ -48,6 +49,7 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
 struct Found {
     std::vector<PartitionCandidate> candidates;
     std::size_t chosen = 0;
+    std::vector<double> confidence;  ///< see CutResult
 };
 
 /// Collective.
@@ -55,10 +57,14 @@ Found found_alone(const Comm& comm, const PartitionEvidence& evidence, const Cut
                   std::vector<PartitionCandidate> clusterings) {
     const PartitionObjective objective = partition_objective(evidence, options.choice);
     const SearchTask task{evidence, objective, options.choice, options.parts};
-    Found found{search_partitions(comm, task, std::move(clusterings))};
+    Found found;
+    found.candidates = search_partitions(comm, task, std::move(clusterings));
     found.chosen = best_candidate(found.candidates);
     PartitionCandidate& chosen = found.candidates[found.chosen];
-    if (options.starts.size() > 1) chosen = expanded(comm, task, std::move(chosen));
+    if (options.starts.size() > 1) {
+        chosen = expanded(comm, task, std::move(chosen));
+        found.confidence = part_confidence(objective, {}, chosen.labels, options.parts);
+    }
     return found;
 }
 
@@ -103,6 +109,7 @@ Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvi
     PartitionCandidate& chosen = found.candidates[found.chosen];
     chosen = labelled(comm, {evidence, objective, options.choice, options.parts}, scores, known,
                       std::move(chosen));
+    found.confidence = part_confidence(objective, known, chosen.labels, options.parts);
     return found;
 }
 
@@ -134,6 +141,7 @@ CutResult described(const CutInput& input, int parts, const PositionFrame& frame
     result.eigenvalues = std::move(chosen.eigenvalues);
     for (PartitionCandidate& r : found.candidates) result.starts.push_back(std::move(r.outcome));
     result.frame = frame;
+    result.confidence = std::move(found.confidence);
     describe_parts(input.mesh_of, input.patch_area, parts, result);
     return result;
 }

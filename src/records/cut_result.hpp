@@ -14,6 +14,9 @@ struct CutResult {
     std::vector<double> part_share;  ///< mean over meshes of the part's share of area
     /// The number of meshes in which the part occurs; a small one is a warning sign.
     std::vector<int> meshes_with_part;
+    /// The probability that the part of a patch is right (solvers/partition/part_confidence.hpp); empty where
+    /// the partition was not chosen from several starts.
+    std::vector<double> confidence;
     std::vector<StartOutcome> starts;  ///< in the order in which they were asked for
     /// of the chosen start's graph, descending, one for each of its clusters.
     std::vector<double> eigenvalues;
@@ -21,6 +24,7 @@ struct CutResult {
     int chosen = 0;       ///< the start taken: best_partition of those with the most parts
     static constexpr auto fields() {
         return std::tuple(field("part_of_patch", &CutResult::part_of_patch, Storage::compressed),
+                          field("confidence", &CutResult::confidence, Storage::compressed),
                           field("part_share", &CutResult::part_share),
                           field("meshes_with_part", &CutResult::meshes_with_part),
                           field("starts", &CutResult::starts), field("eigenvalues", &CutResult::eigenvalues),

@@ -255,9 +255,11 @@
     { name: "faces", value: (s) => s.faces, cell: (s) => s.faces.toLocaleString("en") },
     { name: "seconds", value: (s) => s.seconds, cell: (s) => s.seconds.toFixed(2) },
     { name: "accuracy", value: (s) => s.accuracy, cell: (s) => (s.accuracy === null ? "" : percent(s.accuracy)) },
+    { name: "confidence", value: (s) => s.confidence, cell: (s) => percent(s.confidence) },
     { name: "parts", value: (s) => Math.max(...s.part_area), cell: null },
     { name: "warnings", value: (s) => s.warnings.length, cell: (s) => s.warnings.join("; ") },
-  ].filter((column) => column.name !== "accuracy" || data.accuracy !== null);
+  ].filter((column) => column.name !== "accuracy" || data.accuracy !== null)
+    .filter((column) => column.name !== "confidence" || shapes.every((s) => typeof s.confidence === "number"));
 
   function partBar(cell, shape) {
     const bar = make("span", cell, undefined, "bar");

@@ -49,6 +49,15 @@ END
 ranks 2 "$COSEG" run --quiet --no-html --no-sheet --patches 20 --geodesic-samples 100 --examples "$work/one" \
     --out "$work/ranks2" "$work/set/meshes"
 diff -r "$work/by_one/labels" "$work/ranks2/labels" || fail "labels with and without a state folder, on 1 and on 2 ranks"
+# The confidence of a face whose label is given is 1, and the report has the mean of each shape.
+python3 - "$work" <<'END' || fail "confidence in the PLY and in the report"
+import json, sys
+run = sys.argv[1] + "/by_one"
+ply = open(run + "/ply/table_0002.ply", "rb").read()
+assert b"property float confidence" in ply and ply.endswith(b"\0\0\x80\x3f")
+means = {mesh["name"]: mesh["confidence"] for mesh in json.load(open(run + "/report.json"))["meshes"]}
+assert abs(means["table_0002"] - 1) < 1e-6 and all(0.5 < mean < 1 + 1e-9 for mean in means.values()), means
+END
 # A label that no example shows is a part of its own, and is said.
 "${run[@]}" --examples "$work/one" --parts 3 --out "$work/three" "$work/set/meshes" 2>"$work/log"
 grep -q "no example shows label 2" "$work/log" || fail "a label without an example: $(cat "$work/log")"

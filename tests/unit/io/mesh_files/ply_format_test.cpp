@@ -48,6 +48,20 @@ TEST(PlyFormat, BytesOfOneTriangle) {
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(static_cast<std::uint8_t>(bytes[data + 49 + k]), color[k]);
 }
 
+TEST(PlyFormat, WritesTheConfidenceOfEachFaceBehindItsColour) {
+    const TemporaryFolder folder;
+    const PolygonMesh mesh =
+        test::polygons_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
+    write_colored_ply(folder.path("c.ply"), mesh, {0, 1}, {0.25F, 0.5F});
+    const std::string bytes = test::content_of(folder.path("c.ply"));
+    EXPECT_NE(bytes.find("property uchar blue\nproperty float confidence\nend_header\n"), std::string::npos);
+    float last = 0.0F;
+    std::memcpy(&last, bytes.data() + bytes.size() - sizeof last, sizeof last);
+    EXPECT_EQ(last, 0.5F);
+    EXPECT_EQ(read_mesh(folder.path("c.ply")).corners, mesh.corners) << "readers pass it over";
+    EXPECT_THROW(write_colored_ply(folder.path("d.ply"), mesh, {0, 1}, {0.25F}), Error);
+}
+
 TEST(PlyFormat, PolygonWithManyCorners) {
     const TemporaryFolder folder;
     std::vector<Eigen::Vector3d> points;
