@@ -9,6 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct OwnFolder {
-    const char* name;
+    std::string_view name;
     const char* extension;  ///< of the files in it that are ours
 };
 
@@ -134,6 +135,21 @@ void remove_stale(const OwnFolder& folder, const fs::path& old, const fs::path& 
     }
 }
 
+/// The same for the folders of levels, of which those that become empty go too.
+void remove_stale_levels(const fs::path& old, const fs::path& fresh) {
+    std::error_code cause;
+    std::vector<std::string> levels;
+    for (fs::directory_iterator entry(old / "levels", cause), end; !cause && entry != end;
+         entry.increment(cause))
+        levels.push_back("levels/" + entry->path().filename().string());
+    for (const std::string& level : levels) {
+        remove_stale({level, ".seg"}, old, fresh);
+        std::error_code ignored;
+        if (fs::is_empty(old / level, ignored)) fs::remove(old / level, ignored);
+    }
+    if (fs::is_empty(old / "levels", cause)) fs::remove(old / "levels", cause);
+}
+
 std::vector<fs::path> entries_of(const fs::path& folder) {
     std::error_code cause;
     std::vector<fs::path> entries;
@@ -197,7 +213,7 @@ bool is_ascii(const std::string& name) {
 
 void try_name(const std::string& staging, const std::string& name) {
     for (const OwnFolder& folder : own_folders) {
-        const std::string path = staging + "/" + folder.name + "/" + name + folder.extension;
+        const std::string path = staging + "/" + std::string(folder.name) + "/" + name + folder.extension;
         try {
             write_file(path, "");
         } catch (const Error& error) {
@@ -332,6 +348,7 @@ void OutputDirectory::commit() {
 void OutputDirectory::move_into_existing() const {
     for (const OwnFolder& folder : own_folders) remove_stale(folder, path_, staging_);
     remove_stale(picture_pages, path_, staging_);
+    remove_stale_levels(path_, staging_);
     remove_stale_pictures(path_, staging_);
     merge_folder(staging_, path_);
 }

@@ -14,6 +14,7 @@
 #include "src/records/mesh_facts.hpp"
 #include "src/records/named_range.hpp"
 #include "src/records/optimisation_facts.hpp"
+#include "src/records/part_tree.hpp"
 #include "src/records/solve_summary.hpp"
 #include "src/records/stage_times.hpp"
 #include "src/records/start_outcome.hpp"
@@ -63,13 +64,15 @@ struct ReportPartition {
     std::vector<StartOutcome> starts;
     int chosen_start = 0;
     ReportPlaces places;
-    std::vector<double> part_area;  ///< mean over shapes of each part's share of the area
+    std::vector<double> part_area;   ///< mean over shapes of each part's share of the area
+    std::vector<PieceUnion> unions;  ///< of the tree of parts, from the finest level; none without one
     AffinityPicture affinity;
     static constexpr auto fields() {
         return std::tuple(
             field("eigenvalues", &ReportPartition::eigenvalues), field("starts", &ReportPartition::starts),
             field("chosen_start", &ReportPartition::chosen_start), field("places", &ReportPartition::places),
-            field("part_area", &ReportPartition::part_area), field("affinity", &ReportPartition::affinity));
+            field("part_area", &ReportPartition::part_area), field("unions", &ReportPartition::unions),
+            field("affinity", &ReportPartition::affinity));
     }
 };
 

@@ -399,6 +399,11 @@ void RunOptionTable::add_choice() {
     add_switch({"choose", Affects::cut, partition_group,
                 "Try several adjacency weights and cluster numbers, merge and choose without labels"},
                partition.choose);
+    add_switch(
+        {"levels", Affects::cut, partition_group,
+         "Also write levels/2, levels/3, ...: one nested tree of parts, from 2 to 3 K or 24, in which each "
+         "level joins two parts of the next finer one"},
+        partition.levels);
     add({"subsets", Affects::cut, partition_group,
          "Solve overlapping subsets of so many shapes, a third of them common to all, and reconcile their "
          "parts; 0 solves the collection whole"},

@@ -88,6 +88,12 @@ void refuse_contradictions(const RunOptions& options) {
         (partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion))
         throw AgreedError(ExitCode::usage,
                           "--examples cannot be joined with --subsets, --segments or --partition diffusion");
+    if (partition.levels && (partition.subsets > 0 || partition.segments || !partition.choose ||
+                             partition.method == PartitionMethod::diffusion || partition.parts == 1))
+        throw AgreedError(
+            ExitCode::usage,
+            "--levels needs two parts or more, and cannot be joined with --no-choose, --subsets, "
+            "--segments or --partition diffusion");
     // An offset, as the paper's code adds one to the affinity, leaves the balance without a meaning.
     if (options.partition.cut_offset > 0.0 && options.partition.mesh_balance > 0.0)
         throw AgreedError(ExitCode::usage,

@@ -127,6 +127,7 @@ struct PartitionOptions {
     int subsets = 0;        ///< meshes in a subset; 0: the collection is solved whole
     bool segments = false;  ///< a second pass on whole segments
     bool choose = true;     ///< whether one of several starts is chosen
+    bool levels = false;    ///< a tree of parts, coarser and finer than K
     bool places = true;     ///< starts whose links are weighed by where their patches lie
 };
 

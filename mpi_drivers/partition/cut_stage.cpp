@@ -1,5 +1,6 @@
 #include "mpi_drivers/partition/cut_stage.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "solvers/spectral/diffusion_clusters.hpp"
@@ -51,6 +52,7 @@ CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions
     cut.drop_below = options.drop_below;
     cut.spectral.offset = options.cut_offset;
     cut.spectral.mesh_balance = options.mesh_balance;
+    if (options.levels) cut.finest_level = std::max(24, 3 * options.parts);
     if (options.choose) {
         cut.starts = pooled_starts(options.parts);
         if (looks_at_positions(positions, options)) append(cut.starts, pooled_starts(options.parts, true));

@@ -96,6 +96,7 @@ ReportPartition report_partition(const CutResult& cut, const Eigen::MatrixXd& pa
     report.chosen_start = cut.chosen;
     report.places = {cut.frame.directions.colwise().normalized(), cut.frame.correlation};
     report.part_area = to_vector(part_areas.rowwise().mean());
+    report.unions = cut.tree.unions;
     return report;
 }
 

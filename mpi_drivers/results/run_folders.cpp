@@ -25,7 +25,7 @@ void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::s
     for (const MeshEntry& entry : entries) {
         const fs::path parent = fs::absolute(entry.path).parent_path();
         if (!seen.insert(parent).second) continue;
-        for (const char* own : {"labels", "patches", "ply"}) {
+        for (const char* own : {"labels", "patches", "ply", "levels"}) {
             if (!fs::equivalent(parent, results / own, ignored)) continue;
             throw Error(ExitCode::output, entry.path + ": lies in the folder " + own +
                                               "/ of the results, which the run replaces; name another --out");

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "io/reports/report_page.hpp"
+#include "mpi_drivers/results/level_output.hpp"
 #include "mpi_drivers/results/picture_stage.hpp"
 #include "mpi_drivers/results/report_stage.hpp"
 
@@ -39,6 +40,7 @@ void write_results(const Comm& comm, const std::string& folder, const RunOutcome
                    const OutputOptions& options, StageLog& log) {
     log.begin("write");
     write_meshes(comm, folder, outcome.collection, outcome.labels);
+    write_levels(comm, folder, outcome.collection, outcome.cut, outcome.labels);
     log.end(options.folder);
     if (options.sheet) {
         log.begin("picture");

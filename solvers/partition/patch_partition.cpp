@@ -6,11 +6,13 @@
 
 #include "solvers/partition/cut_graphs.hpp"
 #include "solvers/partition/part_confidence.hpp"
+#include "solvers/partition/part_levels.hpp"
 #include "solvers/partition/part_shares.hpp"
 #include "solvers/partition/partition_search.hpp"
 #include "solvers/partition/start_clusterings.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -133,6 +135,23 @@ void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& 
     result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
 }
 
+/// The tree over the pieces in which parts and clusters of patches divide each other.
+PartTree tree_of(const PartitionEvidence& evidence, const CutOptions& options,
+                 const std::vector<int>& part_of_patch, const std::vector<int>& cluster_of_patch) {
+    std::vector<int> pieces;
+    for (std::size_t i = 0; i < part_of_patch.size(); ++i)
+        pieces.push_back(cluster_of_patch[i] * options.parts + part_of_patch[i]);
+    pieces = renumbered(pieces);
+    const int count = 1 + *std::max_element(pieces.begin(), pieces.end());
+    std::vector<int> part_of_piece(at(count), 0);
+    for (std::size_t i = 0; i < pieces.size(); ++i) part_of_piece[at(pieces[i])] = part_of_patch[i];
+    const PartitionObjective objective = partition_objective(evidence, options.choice);
+    PartTree tree = part_tree(cluster_sums(objective, pieces, count), part_of_piece, options.finest_level);
+    for (int& piece : pieces) piece = tree.piece_of_patch[at(piece)];
+    tree.piece_of_patch = std::move(pieces);
+    return tree;
+}
+
 CutResult described(const CutInput& input, int parts, const PositionFrame& frame, Found found) {
     CutResult result;
     PartitionCandidate& chosen = found.candidates[found.chosen];
@@ -204,7 +223,18 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
     Found found = input.examples == nullptr
                       ? found_alone(comm, evidence, options, std::move(clusters))
                       : found_by_examples(comm, input, {evidence, terms.frame}, options, std::move(clusters));
-    return described(input, options.parts, terms.frame, std::move(found));
+    CutResult result = described(input, options.parts, terms.frame, std::move(found));
+    const bool has_all_parts =
+        std::none_of(result.part_share.begin(), result.part_share.end(), [](double s) { return s <= 0.0; });
+    if (options.finest_level > 0 && has_all_parts) {
+        const std::vector<CutStart> fine = {
+            {result.starts[at(result.chosen)].start.graph, std::max(options.finest_level, options.parts)}};
+        const ClusteringTask finer{graphs, terms, fine, options.spectral, options.drop_below, options.parts};
+        result.tree =
+            tree_of(evidence, options, result.part_of_patch,
+                    all_gather_records(comm, start_clusterings(comm, finer, one_rank)).front().labels);
+    }
+    return result;
 }
 
 }  // namespace coseg

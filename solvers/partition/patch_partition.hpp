@@ -49,6 +49,7 @@ struct CutOptions {
     double drop_below = 0.0;       ///< entries of S below this are dropped; the paper's code has 1e-6
     SpectralOptions spectral;      ///< the paper's code has offset 0.5
     std::vector<CutStart> starts;  ///< at least one
+    int finest_level = 0;          ///< parts of the finest level of CutResult::tree; 0: no tree is made
     ChoiceWeights choice;
     ExampleWeights examples;
     /// Up to this number of entries of the base affinity, a start is the work of one rank, which takes about

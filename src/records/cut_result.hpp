@@ -4,6 +4,7 @@
 #include <tuple>
 #include <vector>
 
+#include "src/records/part_tree.hpp"
 #include "src/records/position_frame.hpp"
 #include "src/records/start_outcome.hpp"
 
@@ -17,6 +18,7 @@ struct CutResult {
     /// The probability that the part of a patch is right (solvers/partition/part_confidence.hpp); empty where
     /// the partition was not chosen from several starts.
     std::vector<double> confidence;
+    PartTree tree;                     ///< empty unless levels were asked for
     std::vector<StartOutcome> starts;  ///< in the order in which they were asked for
     /// of the chosen start's graph, descending, one for each of its clusters.
     std::vector<double> eigenvalues;
@@ -25,7 +27,7 @@ struct CutResult {
     static constexpr auto fields() {
         return std::tuple(field("part_of_patch", &CutResult::part_of_patch, Storage::compressed),
                           field("confidence", &CutResult::confidence, Storage::compressed),
-                          field("part_share", &CutResult::part_share),
+                          field("part_share", &CutResult::part_share), field("tree", &CutResult::tree),
                           field("meshes_with_part", &CutResult::meshes_with_part),
                           field("starts", &CutResult::starts), field("eigenvalues", &CutResult::eigenvalues),
                           field("positions", &CutResult::frame), field("chosen", &CutResult::chosen));

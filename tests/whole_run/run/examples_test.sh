@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # --examples: the labels of one shape become those of all, and what is wrong with an example is said in a sentence.
+# --levels: one nested tree of parts.
 set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
@@ -62,6 +63,29 @@ END
 "${run[@]}" --examples "$work/one" --parts 3 --out "$work/three" "$work/set/meshes" 2>"$work/log"
 grep -q "no example shows label 2" "$work/log" || fail "a label without an example: $(cat "$work/log")"
 
+# Levels: one nested tree, whose level of K parts is the partition; an earlier run's levels go.
+"${run[@]}" --parts 2 --levels --out "$work/levels" "$work/set/meshes"
+diff -r "$work/levels/levels/2" "$work/levels/labels" || fail "the level of K parts is not that of the labels"
+python3 - "$work/levels" <<'END' || fail "levels are not nested"
+import json, os, sys
+run = sys.argv[1]
+unions = json.load(open(run + "/report.json"))["partition"]["unions"]
+finest = len(unions) + 2
+assert sorted(map(int, os.listdir(run + "/levels"))) == list(range(2, finest + 1)) and finest > 4, finest
+for count in range(2, finest):
+    parents, labels = {}, set()
+    for name in os.listdir(run + "/labels"):
+        coarse, fine = (open(f"{run}/levels/{level}/{name}").read().split() for level in (count, count + 1))
+        for a, b in zip(coarse, fine):
+            assert parents.setdefault(b, a) == a, (count, name)
+            labels.add(int(a))
+    assert labels <= set(range(count)), (count, labels)
+END
+ranks 2 "${run[@]}" --parts 2 --levels --out "$work/levels2" "$work/set/meshes"
+diff -r "$work/levels/levels" "$work/levels2/levels" || fail "levels on 1 and on 2 ranks"
+"${run[@]}" --parts 2 --force --out "$work/levels2" "$work/set/meshes"
+[[ ! -e $work/levels2/levels ]] || fail "levels of an earlier run are left"
+
 # What is wrong: the code, and a part of the sentence.
 refused() {
     local code=$1 sentence=$2
@@ -76,6 +100,7 @@ refused 2 "--parts is required"
 refused 3 "no label file NAME.seg" --examples "$work/none"
 refused 3 "No such file or directory" --examples "$work/nowhere"
 refused 2 "--examples cannot be joined" --examples "$work/one" --parts 2 --segments
+refused 2 "--levels needs two parts" --parts 1 --levels
 refused 3 "which needs --parts 2 or more" --examples "$work/one" --parts 1
 head -n 10 "$work/one/table_0002.seg" >"$work/bad/table_0002.seg"
 refused 3 "table_0002.seg" --examples "$work/bad"

@@ -1,0 +1,128 @@
+#include "solvers/partition/part_levels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "src/base/index.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// Groups of clusters, as rows of the sums, that become fewer.
+class Groups {
+  public:
+    Groups(ClusterSums sums, std::vector<int> part)
+        : sums_(std::move(sums)), part_(std::move(part)), group_of_(part_.size()), lead_(part_.size()) {
+        std::iota(group_of_.begin(), group_of_.end(), 0);
+        std::iota(lead_.begin(), lead_.end(), 0);
+    }
+
+    [[nodiscard]] int count() const { return sums_.count(); }
+    [[nodiscard]] const std::vector<int>& group_of_cluster() const { return group_of_; }
+    [[nodiscard]] int part(int group) const { return part_[at(group)]; }
+    [[nodiscard]] double area(int group) const { return sums_.area.row(group).sum(); }
+
+    /// Every group becomes its own leader.
+    void name_leaders(const std::vector<int>& number_of_group) { lead_ = number_of_group; }
+
+    /// Unites the pair that loses least, of one part if `inside`.
+    PieceUnion unite_best(bool inside) {
+        PieceUnion best{.kept = -1, .taken = -1, .loss = std::numeric_limits<double>::infinity()};
+        for (int a = 0; a < count(); ++a) {
+            for (int b = a + 1; b < count(); ++b) {
+                if (inside && part_[at(a)] != part_[at(b)]) continue;
+                const double loss = value_of_part(sums_, std::array{a}) +
+                                    value_of_part(sums_, std::array{b}) -
+                                    value_of_part(sums_, std::array{a, b});
+                if (loss < best.loss) best = {a, b, loss};
+            }
+        }
+        const int a = best.kept;
+        const int b = best.taken;
+        best.kept = std::min(lead_[at(a)], lead_[at(b)]);
+        best.taken = std::max(lead_[at(a)], lead_[at(b)]);
+        join(a, b, best.kept);
+        return best;
+    }
+
+  private:
+    void join(int a, int b, int lead) {
+        const int last = count() - 1;
+        unite(sums_, a, b);
+        lead_[at(a)] = lead;
+        lead_[at(b)] = lead_[at(last)];
+        lead_.pop_back();
+        part_[at(b)] = part_[at(last)];
+        part_.pop_back();
+        for (int& group : group_of_) group = group == b ? a : (group == last ? b : group);
+    }
+
+    ClusterSums sums_;
+    std::vector<int> part_;      ///< of each group
+    std::vector<int> group_of_;  ///< of each cluster
+    std::vector<int> lead_;      ///< of each group
+};
+
+/// A number for each group: in each part the largest one has that of the part, and the others follow in any
+/// order.
+std::vector<int> provisional_numbers(const Groups& groups, int parts) {
+    std::vector<int> largest(at(parts), -1);
+    for (int g = 0; g < groups.count(); ++g) {
+        int& best = largest[at(groups.part(g))];
+        if (best < 0 || groups.area(g) > groups.area(best)) best = g;
+    }
+    std::vector<int> number(at(groups.count()));
+    int next = parts;
+    for (int g = 0; g < groups.count(); ++g)
+        number[at(g)] = largest[at(groups.part(g))] == g ? groups.part(g) : next++;
+    return number;
+}
+
+/// The numbers of pieces such that the union before last inside the parts has taken piece K, the one before it
+/// piece K + 1, and so on.
+std::vector<int> final_numbers(const std::vector<PieceUnion>& unions, int pieces, int parts) {
+    std::vector<int> number(at(pieces));
+    std::iota(number.begin(), number.end(), 0);
+    int next = parts;
+    for (int k = pieces - parts - 1; k >= 0; --k) number[at(unions[at(k)].taken)] = next++;
+    return number;
+}
+
+}  // namespace
+
+PartTree part_tree(ClusterSums clusters, const std::vector<int>& part_of_cluster, int finest) {
+    PartTree tree;
+    const int parts = 1 + *std::max_element(part_of_cluster.begin(), part_of_cluster.end());
+    Groups groups(std::move(clusters), part_of_cluster);
+    while (groups.count() > std::max(finest, parts)) groups.unite_best(true);
+    const int pieces = groups.count();
+    const std::vector<int> provisional = provisional_numbers(groups, parts);
+    for (const int group : groups.group_of_cluster()) tree.piece_of_patch.push_back(provisional[at(group)]);
+    groups.name_leaders(provisional);
+    while (groups.count() > 2) tree.unions.push_back(groups.unite_best(groups.count() > parts));
+    const std::vector<int> number = final_numbers(tree.unions, pieces, parts);
+    for (int& piece : tree.piece_of_patch) piece = number[at(piece)];
+    for (PieceUnion& u : tree.unions) u = {number[at(u.kept)], number[at(u.taken)], u.loss};
+    return tree;
+}
+
+std::vector<int> labels_at_level(const PartTree& tree, int count) {
+    std::vector<int> lead(at(tree.finest()));
+    std::iota(lead.begin(), lead.end(), 0);
+    for (int k = 0; k < tree.finest() - count; ++k) {
+        const PieceUnion& u = tree.unions[at(k)];
+        std::replace(lead.begin(), lead.end(), u.taken, u.kept);
+    }
+    std::vector<int> used = lead;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (int& label : lead)
+        label = static_cast<int>(std::lower_bound(used.begin(), used.end(), label) - used.begin());
+    return lead;
+}
+
+}  // namespace coseg
