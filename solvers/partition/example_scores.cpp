@@ -140,6 +140,11 @@ Eigen::MatrixXd example_scores(const ScoreInput& input, const ExampleLabels& exa
     const LinearScore fit = fitted(training_set(features, neighbors, places, examples));
     Eigen::MatrixXd scores = predicted(fit, features, neighbors, places);
     const std::vector<int> known = known_labels(examples, input.patch_area);
+    const Eigen::Index labels = scores.rows();
+    for (Eigen::Index label = 0; label < labels; ++label) {
+        if (examples.area.row(label).sum() <= 0.0)
+            scores.row(label).setConstant(1.0 / static_cast<double>(labels));
+    }
     for (std::size_t i = 0; i < known.size(); ++i) {
         if (known[i] < 0) continue;
         scores.col(static_cast<Eigen::Index>(i)).setZero();

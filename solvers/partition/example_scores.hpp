@@ -31,9 +31,9 @@ struct ScoreInput {
     const std::vector<double>& patch_area;               ///< N
 };
 
-/// K x N: about 1 where the patch has the label and 0 elsewhere; the scores of a patch sum to 1. A patch with
-/// a known label has 1 for it and 0 for the others. Labels without an example have 0 everywhere, so that
-/// only what the shapes themselves say makes parts of them.
+/// K x N: about 1 where the patch has the label and 0 elsewhere; the scores of a patch sum to 1 but for free
+/// labels. A patch with a known label has 1 for it and 0 for the others. Labels without an example have 1 / K
+/// everywhere else: nothing is said of them.
 ///
 /// It is a ridge regression of the labels, weighted by the area that is said, on the features of the patch,
 /// on the mean of the features of its neighbours (weighted by the length of the common boundary), and on its
