@@ -25,6 +25,7 @@ FinishedRun run_of(const std::string& folder, const Json& report) {
     const Json& options = report.at("options");
     run.parts = options.at("parts").get<int>();
     run.seed = options.at("seed").get<std::uint64_t>();
+    run.weld = options.value("weld", "auto");
     run.remesh = options.value("remesh", "auto");
     run.patches = options.at("patches").get<int>();
     run.geodesic_samples = options.at("geodesic-samples").get<int>();

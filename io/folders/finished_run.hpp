@@ -17,6 +17,7 @@ struct FinishedRun {
     std::string folder;
     int parts = 0;
     std::uint64_t seed = 1;
+    std::string weld = "auto";
     std::string remesh = "auto";
     int patches = 50;  ///< like the next one, an option on which the descriptors depend
     int geodesic_samples = 300;

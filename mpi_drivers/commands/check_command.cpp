@@ -14,6 +14,7 @@
 #include "mpi_drivers/describe/mesh_check.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/weld_option.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 
@@ -24,6 +25,7 @@ namespace {
 struct CheckOptions {
     std::vector<std::string> inputs;
     std::string json;  ///< a file, or empty
+    WeldChoice weld = {};
 };
 
 struct CheckTotals {
@@ -104,7 +106,7 @@ void print(const std::vector<CheckedMesh>& meshes, const CheckTotals& totals) {
 
 void check(const Comm& world, const CheckOptions& options) {
     const std::vector<MeshEntry> entries = list_meshes(world, options.inputs);
-    const std::vector<CheckedMesh> meshes = check_meshes(world, entries);
+    const std::vector<CheckedMesh> meshes = check_meshes(world, entries, border_limits(options.weld));
     std::int64_t set_aside = 0;
     agree(world, [&] {
         if (!world.is_root()) return;
@@ -132,6 +134,7 @@ Command add_check_command(CLI::App& parent) {
         ->required()
         ->type_name("MESH|DIRECTORY|@LIST");
     app->add_option("--json", options->json, "Write the same into this file, as JSON")->type_name("FILE");
+    add_weld_option(*app, options->weld);
     app->footer("Exit code: 0 if a run would use every mesh, repaired or not; 3 if it would set one aside.");
     return {app, [options](const Invocation& invocation) { check(invocation.world, *options); }};
 }

@@ -25,11 +25,11 @@ int piece_count(TriMesh mesh) {
     return piece_of_face.empty() ? 0 : *std::max_element(piece_of_face.begin(), piece_of_face.end()) + 1;
 }
 
-void read_and_repair(CheckedMesh& checked) {
+void read_and_repair(CheckedMesh& checked, const BorderLimits& welding) {
     ParsedMesh parsed = parse_mesh(read_regular_file(checked.path), checked.path);
     checked.vertices = parsed.mesh.vertex_count();
     checked.faces = parsed.mesh.face_count();
-    RepairedMesh repaired = repair(parsed.mesh, checked.path);
+    RepairedMesh repaired = repair(parsed.mesh, checked.path, welding);
     checked.warnings = std::move(parsed.warnings);
     checked.warnings.insert(checked.warnings.end(), repaired.warnings.begin(), repaired.warnings.end());
     checked.pieces = piece_count(std::move(repaired.mesh));
@@ -46,12 +46,12 @@ struct NumberedCheck {
 
 }  // namespace
 
-CheckedMesh check_mesh(const MeshEntry& entry) {
+CheckedMesh check_mesh(const MeshEntry& entry, const BorderLimits& welding) {
     CheckedMesh checked;
     checked.name = entry.name;
     checked.path = entry.path;
     try {
-        read_and_repair(checked);
+        read_and_repair(checked, welding);
     } catch (const std::bad_alloc&) {
         checked.set_aside = entry.path + ": out of memory; use more nodes";
     } catch (const Error& error) {
@@ -62,13 +62,14 @@ CheckedMesh check_mesh(const MeshEntry& entry) {
     return checked;
 }
 
-std::vector<CheckedMesh> check_meshes(const Comm& comm, const std::vector<MeshEntry>& entries) {
+std::vector<CheckedMesh> check_meshes(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                      const BorderLimits& welding) {
     const auto total = static_cast<std::int64_t>(entries.size());
     std::vector<NumberedCheck> local;
     {
         SharedCounter counter(comm);
         for (std::int64_t k = counter.next(); k < total; k = counter.next())
-            local.push_back({k, check_mesh(entries[at(k)])});
+            local.push_back({k, check_mesh(entries[at(k)], welding)});
     }
     std::vector<NumberedCheck> all = gather_records(comm, local);
     std::sort(all.begin(), all.end(),

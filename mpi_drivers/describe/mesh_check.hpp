@@ -8,6 +8,7 @@
 #include "io/mesh_files/mesh_list.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/records/fields.hpp"
+#include "src/repair/border_welding.hpp"
 
 namespace coseg {
 
@@ -30,10 +31,11 @@ struct CheckedMesh {
 
 /// Reads and repairs a mesh as describe_mesh does. Serial; throws nothing for a mesh that cannot be used.
 /// Whether it would be remeshed or refined, which depends on the options of a run, is not found out.
-CheckedMesh check_mesh(const MeshEntry& entry);
+CheckedMesh check_mesh(const MeshEntry& entry, const BorderLimits& welding = {});
 
 /// The same for all meshes, in their order, on the root; elsewhere empty. The meshes are shared out among the
 /// ranks. Collective.
-std::vector<CheckedMesh> check_meshes(const Comm& comm, const std::vector<MeshEntry>& entries);
+std::vector<CheckedMesh> check_meshes(const Comm& comm, const std::vector<MeshEntry>& entries,
+                                      const BorderLimits& welding = {});
 
 }  // namespace coseg

@@ -86,7 +86,7 @@ bool remesh_if_possible(TriMesh& mesh, MeshDescription& description, const std::
 
 TriMesh working_mesh(MeshDescription& description, const std::string& path,
                      const DescriptionOptions& options) {
-    RepairedMesh repaired = repair(description.input, path);
+    RepairedMesh repaired = repair(description.input, path, border_limits(options.weld));
     description.warnings.insert(description.warnings.end(), repaired.warnings.begin(),
                                 repaired.warnings.end());
     description.map = std::move(repaired.map);

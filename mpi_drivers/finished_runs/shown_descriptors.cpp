@@ -35,6 +35,7 @@ std::vector<std::vector<double>> shown_descriptors(const FinishedRun& run, const
                                                    const std::vector<int>& chosen) {
     DescriptionOptions options;
     options.seed = run.seed;
+    options.weld = parsed_weld(run.weld).value_or(options.weld);
     options.remesh = named<RemeshMode>(run.remesh).value_or(options.remesh);
     options.patches = run.patches;
     options.geodesic_samples = run.geodesic_samples;

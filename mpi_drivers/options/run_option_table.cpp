@@ -7,6 +7,7 @@
 #include "io/mesh_files/mesh_format.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
+#include "mpi_drivers/options/weld_option.hpp"
 #include "src/descriptors/descriptor_table.hpp"
 #include "src/pictures/shape_view.hpp"
 
@@ -23,7 +24,7 @@ constexpr const char* partition_group = "Partition into parts";
 template <class T>
 std::string printed(const T& value) {
     std::ostringstream text;
-    if constexpr (NamedEnum<T> || std::is_same_v<T, LinkChoice>) {
+    if constexpr (NamedEnum<T> || std::is_same_v<T, LinkChoice> || std::is_same_v<T, WeldChoice>) {
         text << to_string(value);
     } else if constexpr (std::is_same_v<T, bool>) {
         text << (value ? "true" : "false");
@@ -227,6 +228,9 @@ void RunOptionTable::add_state(OptionSet set) {
 
 void RunOptionTable::add_patches() {
     DescriptionOptions& description = options_.description;
+    const Row weld{"weld", Affects::describe, patches_group, weld_help};
+    remember(weld, [&description] { return printed(description.weld); });
+    add_weld_option(app_, description.weld)->group(patches_group);
     add({"remesh", Affects::describe, patches_group,
          "Even triangles inside the program: always, never, or auto: for meshes whose triangles are too long "
          "for patches"},

@@ -1,5 +1,6 @@
 #include "mpi_drivers/options/stage_options.hpp"
 
+#include <array>
 #include <charconv>
 
 namespace coseg {
@@ -12,6 +13,44 @@ std::optional<LinkChoice> parsed_links(std::string_view text) {
     const auto [rest, error] = std::from_chars(text.data(), end, links.meshes);
     if (error != std::errc() || rest != end || links.meshes < 2) return std::nullopt;
     return links;
+}
+
+std::optional<WeldChoice> parsed_weld(std::string_view text) {
+    constexpr double largest = 0.01;
+    if (text == "auto") return WeldChoice{};
+    if (text == "exact") return WeldChoice{WeldChoice::Rule::exact, 0.0};
+    WeldChoice weld{WeldChoice::Rule::within, 0.0};
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, weld.tolerance);
+    const bool is_in_range = weld.tolerance > 0.0 && weld.tolerance <= largest;
+    if (error != std::errc() || rest != end || !is_in_range) return std::nullopt;
+    return weld;
+}
+
+std::string to_string(const WeldChoice& weld) {
+    switch (weld.rule) {
+        case WeldChoice::Rule::automatic:
+            return "auto";
+        case WeldChoice::Rule::exact:
+            return "exact";
+        case WeldChoice::Rule::within:
+            break;
+    }
+    std::array<char, 32> text{};
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), weld.tolerance);
+    return {text.data(), end};
+}
+
+BorderLimits border_limits(const WeldChoice& weld) {
+    switch (weld.rule) {
+        case WeldChoice::Rule::automatic:
+            return {};
+        case WeldChoice::Rule::exact:
+            return no_border_welding;
+        case WeldChoice::Rule::within:
+            break;
+    }
+    return border_welding_within(weld.tolerance);
 }
 
 Verbosity ProcessOptions::verbosity() const noexcept {

@@ -18,6 +18,7 @@
 #include "src/parallel/stage_log.hpp"
 #include "src/pictures/shape_view.hpp"
 #include "src/records/fields.hpp"
+#include "src/repair/border_welding.hpp"
 
 namespace coseg {
 
@@ -31,10 +32,29 @@ constexpr std::array<EnumName<RemeshMode>, 3> enum_names(RemeshMode /*type*/) {
     return {{{RemeshMode::automatic, "auto"}, {RemeshMode::always, "always"}, {RemeshMode::never, "never"}}};
 }
 
+/// How borders of a mesh that nearly touch are treated.
+struct WeldChoice {
+    enum class Rule {
+        automatic,  ///< joined where they are as near as rounding leaves them
+        exact,      ///< joined only where their coordinates are equal
+        within
+    };  ///< within: joined within a tolerance
+    Rule rule = Rule::automatic;
+    double tolerance = 0.0;  ///< Rule::within alone: a share of the mesh's size, in (0, 0.01]
+    static constexpr auto fields() {
+        return std::tuple(field("rule", &WeldChoice::rule), field("tolerance", &WeldChoice::tolerance));
+    }
+};
+/// "auto", "exact" or a number above 0 and up to 0.01; nothing for any other text.
+std::optional<WeldChoice> parsed_weld(std::string_view text);
+std::string to_string(const WeldChoice& weld);
+BorderLimits border_limits(const WeldChoice& weld);
+
 /// The options that a mesh's description depends on, and no others: the descriptions in a state folder are
 /// found by them (description_file.hpp).
 struct DescriptionOptions {
     std::uint64_t seed = 1;
+    WeldChoice weld = {};
     RemeshMode remesh = RemeshMode::automatic;
     int patches = 50;           ///< per over-segmentation
     int oversegmentations = 3;  ///< per mesh
@@ -42,7 +62,7 @@ struct DescriptionOptions {
     int geodesic_samples = 300;
     std::vector<int> descriptors;  ///< rows of descriptor_table(), ascending; see description_options
     static constexpr auto fields() {
-        return std::tuple(field("seed", &DescriptionOptions::seed),
+        return std::tuple(field("seed", &DescriptionOptions::seed), field("weld", &DescriptionOptions::weld),
                           field("remesh", &DescriptionOptions::remesh),
                           field("patches", &DescriptionOptions::patches),
                           field("oversegmentations", &DescriptionOptions::oversegmentations),

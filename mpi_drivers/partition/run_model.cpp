@@ -35,6 +35,7 @@ void write_options(Hdf5Writer& file, const RunOptions& options) {
     const DescriptionOptions& description = options.description;
     file.attribute("parts", std::int64_t{options.partition.parts});
     file.attribute("seed", static_cast<std::int64_t>(description.seed));
+    file.attribute("weld", to_string(description.weld));
     file.attribute("remesh", to_string(description.remesh));
     file.attribute("patches", std::int64_t{description.patches});
     file.attribute("oversegmentations", std::int64_t{description.oversegmentations});
@@ -60,11 +61,18 @@ E read_enum(const Hdf5Reader& file, const std::string& name) {
     throw Error(ExitCode::input, file.path() + ": '" + name + "' has an unknown value; run coseg run again");
 }
 
+WeldChoice read_weld(const Hdf5Reader& file) {
+    const std::optional<WeldChoice> weld = parsed_weld(file.text("weld"));
+    if (weld) return *weld;
+    throw Error(ExitCode::input, file.path() + ": 'weld' has an unknown value; run coseg run again");
+}
+
 RunOptions read_options(const Hdf5Reader& file) {
     const auto number = [&](const char* name) { return static_cast<int>(file.integer(name)); };
     RunOptions options;
     set_seed(options, static_cast<std::uint64_t>(file.integer("seed")));
     options.partition.parts = number("parts");
+    options.description.weld = read_weld(file);
     options.description.remesh = read_enum<RemeshMode>(file, "remesh");
     options.description.patches = number("patches");
     options.description.oversegmentations = number("oversegmentations");

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iomanip>
+#include <sstream>
+#include <utility>
 
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/mesh/polygon_triangulation.hpp"
 #include "src/mesh/vertex_welding.hpp"
-#include "src/repair/border_welding.hpp"
 #include "src/repair/degenerate_faces.hpp"
+#include "src/repair/doubled_faces.hpp"
 #include "src/repair/label_donor_faces.hpp"
 #include "src/repair/manifold_cut.hpp"
 #include "src/repair/outlying_vertices.hpp"
@@ -50,14 +53,16 @@ void distinct_corners(const PolygonMesh& input, const std::vector<int>& vertex_o
     while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
 }
 
-WorkingTriangles triangulate(const PolygonMesh& input, const std::vector<int>& vertex_of) {
+/// Of the faces that are not left out.
+WorkingTriangles triangulate(const PolygonMesh& input, const DoubledFaces& doubles) {
     WorkingTriangles working;
     working.triangles.reserve(input.corners.size() / 3);
     working.input_face.reserve(input.corners.size() / 3);
     std::vector<int> corners;
     std::vector<Vector3d> positions;
     for (int f = 0; f < input.face_count(); ++f) {
-        distinct_corners(input, vertex_of, f, corners);
+        if (doubles.left_out[at(f)] != 0) continue;
+        distinct_corners(input, doubles.vertex_of, f, corners);
         if (corners.size() == 3) {
             working.triangles.emplace_back(corners[0], corners[1], corners[2]);
             working.input_face.push_back(f);
@@ -126,9 +131,25 @@ struct RepairCounts {
     int unused = 0;
     int welded = 0;
     int near = 0;
+    NearBorders apart;
+    int doubled = 0;
     int faces_without_area = 0;
     int outlying = 0;
 };
+
+/// Nothing where no borders nearly touch. The tolerance named is the least of one digit that joins them.
+std::string sentence_of(const std::string& name, const NearBorders& apart) {
+    if (apart.pieces == 0) return "";
+    const double unit = std::pow(10.0, std::floor(std::log10(apart.distance)));
+    std::ostringstream sentence;
+    sentence << name << ": " << apart.pieces
+             << (apart.pieces == 1 ? " piece has borders that nearly touch, "
+                                   : " pieces have borders that nearly touch, ")
+             << std::scientific << std::setprecision(1) << apart.distance
+             << " of the size apart; if they are meant to be one surface, give --weld "
+             << std::setprecision(0) << std::min(std::ceil(apart.distance / unit) * unit, 1e-3);
+    return sentence.str();
+}
 
 std::vector<std::string> describe(const std::string& name, const RepairCounts& counts,
                                   const ManifoldCut& cut) {
@@ -138,6 +159,8 @@ std::vector<std::string> describe(const std::string& name, const RepairCounts& c
     warnings.add(counts.welded, "repeated vertex is welded", "repeated vertices are welded");
     warnings.add(counts.near, "vertex on borders that nearly touch is welded",
                  "vertices on borders that nearly touch are welded");
+    warnings.add(counts.doubled, "face lies upon another and shares its part",
+                 "faces lie upon others and share their parts");
     warnings.add(counts.faces_without_area, "face without area takes the part of a neighbour",
                  "faces without area take the part of a neighbour");
     warnings.add(counts.outlying,
@@ -151,7 +174,10 @@ std::vector<std::string> describe(const std::string& name, const RepairCounts& c
                  "copies of vertices separate surfaces that meet there");
     warnings.add(cut.flipped_triangles, "triangle is turned to face outward",
                  "triangles are turned to face outward");
-    return warnings.take();
+    std::vector<std::string> sentences = warnings.take();
+    const std::string apart = sentence_of(name, counts.apart);
+    if (!apart.empty()) sentences.push_back(apart);
+    return sentences;
 }
 
 /// Of the largest coordinate, as a power of two, if the squares of lengths leave the range of doubles; else
@@ -169,25 +195,52 @@ PolygonMesh scaled(PolygonMesh mesh, int exponent) {
     return mesh;
 }
 
-RepairedMesh repair_moderate(const PolygonMesh& input, const std::string& name) {
-    const std::vector<int> equal = weld_vertices(input);
-    const auto [vertex_of, near_count] = weld_near_borders(input, equal);
-    WorkingTriangles working = triangulate(input, vertex_of);
-    RepairCounts counts{.unused = count_unused(input), .welded = count_welded(equal), .near = near_count};
-    const int without_triangle = count_lost(faces_with_triangles(working, input.face_count()));
+/// Whose label each input face takes. working: triangles whose input faces share the label of no other face.
+std::vector<int> label_donors(const PolygonMesh& input, const WorkingTriangles& working,
+                              const DoubledFaces& doubles) {
+    const std::vector<char> has_triangle = faces_with_triangles(working, input.face_count());
+    std::vector<char> has_label = has_triangle;
+    for (int f = 0; f < input.face_count(); ++f) {
+        if (has_triangle[at(doubles.label_of[at(f)])] != 0) has_label[at(f)] = 1;
+    }
+    std::vector<int> donors = label_donor_faces(input, doubles.vertex_of, has_label);
+    for (int& donor : donors) donor = doubles.label_of[at(donor)];
+    return donors;
+}
+
+/// The triangles of the input that the working mesh is cut from, and what was left out before.
+WorkingTriangles working_triangles(const PolygonMesh& input, const std::string& name,
+                                   const DoubledFaces& doubles, RepairCounts& counts) {
+    WorkingTriangles working = triangulate(input, doubles);
+    const auto lost = [&] { return count_lost(faces_with_triangles(working, input.face_count())); };
+    const int without_triangle = lost();
     counts.outlying = remove_outlying(working, input.vertices);
-    const int lost_to_spikes =
-        count_lost(faces_with_triangles(working, input.face_count())) - without_triangle;
+    const int lost_to_spikes = lost() - without_triangle;
     remove_degenerate(working, input.vertices);
     if (working.triangles.empty()) {
         throw Error(ExitCode::input, name + ": no face has an area; check the coordinates and the faces");
     }
-    const std::vector<char> has_triangle = faces_with_triangles(working, input.face_count());
-    counts.faces_without_area = count_lost(has_triangle) - lost_to_spikes;
+    const auto left_out =
+        static_cast<int>(std::count(doubles.left_out.begin(), doubles.left_out.end(), char{1}));
+    counts.faces_without_area = lost() - lost_to_spikes - left_out;
+    for (int& face : working.input_face) face = doubles.label_of[at(face)];
+    return working;
+}
+
+RepairedMesh repair_moderate(const PolygonMesh& input, const std::string& name, const BorderLimits& welding) {
+    const std::vector<int> equal = weld_vertices(input);
+    BorderWelding welded = weld_near_borders(input, equal, welding);
+    RepairCounts counts{.unused = count_unused(input),
+                        .welded = count_welded(equal),
+                        .near = welded.welded,
+                        .apart = near_borders(input, welded.vertex_of)};
+    const DoubledFaces doubles = find_doubled_faces(input, std::move(welded.vertex_of));
+    counts.doubled = doubles.count;
+    WorkingTriangles working = working_triangles(input, name, doubles, counts);
 
     RepairedMesh result;
     result.map.input_faces = input.face_count();
-    result.map.label_donor = label_donor_faces(input, vertex_of, has_triangle);
+    result.map.label_donor = label_donors(input, working, doubles);
     const ManifoldCut cut = cut_to_manifold(working.triangles, input.vertices);
     result.mesh = to_mesh(input, cut);
     result.map.input_face = std::move(working.input_face);
@@ -197,11 +250,11 @@ RepairedMesh repair_moderate(const PolygonMesh& input, const std::string& name) 
 
 }  // namespace
 
-RepairedMesh repair(const PolygonMesh& input, const std::string& name) {
+RepairedMesh repair(const PolygonMesh& input, const std::string& name, const BorderLimits& welding) {
     check_input(input, name);
     const int exponent = extreme_exponent(input);
-    if (exponent == 0) return repair_moderate(input, name);
-    return repair_moderate(scaled(input, -exponent), name);
+    if (exponent == 0) return repair_moderate(input, name, welding);
+    return repair_moderate(scaled(input, -exponent), name, welding);
 }
 
 }  // namespace coseg

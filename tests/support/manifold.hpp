@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -34,6 +35,13 @@ inline PolygonMesh polygons_of(const std::vector<Eigen::Vector3d>& vertices,
         mesh.offsets.push_back(static_cast<int>(mesh.corners.size()));
     }
     return mesh;
+}
+
+/// Every vertex standing for itself.
+inline std::vector<int> each_its_own(const PolygonMesh& mesh) {
+    std::vector<int> vertex_of(mesh.vertices.size());
+    std::iota(vertex_of.begin(), vertex_of.end(), 0);
+    return vertex_of;
 }
 
 /// Every face with vertices of its own.

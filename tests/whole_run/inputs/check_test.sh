@@ -56,3 +56,42 @@ rm "$work/set/d.obj" "$work/set/e.ply"
 "$COSEG" check "$work/set" >"$work/out" || fail "meshes that can be used give another exit code than 0"
 refuses "nothing to check" 3 "no such file" "$COSEG" check "$work/nowhere"
 refuses "a JSON file that cannot be written" 4 "check.json" "$COSEG" check "$work/set" --json "$work/nowhere/check.json"
+
+# One surface, whatever the file makes of it: every face twice, the copies with vertices of their own; and a seam.
+mkdir "$work/once" "$work/odd"
+for waist in 5 6 7; do peanut "$work/once/p$waist.off" "0.$waist"; done
+python3 - "$work/once" "$work/odd" <<'END'
+import pathlib, shutil, sys
+once, odd = map(pathlib.Path, sys.argv[1:])
+def parts(name):
+    rows = [line.split() for line in (once / name).read_text().splitlines()[2:]]
+    return [r for r in rows if len(r) == 3], [[int(k) for k in r[1:]] for r in rows if len(r) == 4]
+def write(name, points, faces):
+    lines = ["OFF", f"{len(points)} {len(faces)} 0", *map(" ".join, points), *(" ".join(map(str, (3, *f))) for f in faces)]
+    (odd / name).write_text("\n".join(lines) + "\n")
+points, faces = parts("p5.off")
+write("p5.off", points * 2, faces + [[k + len(points) for k in reversed(f)] for f in faces])
+points, faces = parts("p6.off")
+copy = {}
+for face in faces:
+    if all(float(points[k][2]) > -1e-9 for k in face):
+        for i, k in enumerate(face):
+            if abs(float(points[k][2])) < 1e-9:
+                if k not in copy:
+                    copy[k] = len(points)
+                    points.append([*points[k][:2], "1e-3"])
+                face[i] = copy[k]
+write("p6.off", points, faces)
+shutil.copy(once / "p7.off", odd)
+END
+"$COSEG" check "$work/odd" >"$work/out"
+grep -q "p5.off: 1108 vertices, 2208 faces, 1 piece; .*1104 faces lie upon others and share their parts$" "$work/out" || fail "doubles: $(cat "$work/out")"
+grep -q "p6.off: 578 vertices, 1104 faces, 2 pieces; 2 pieces have borders that nearly touch, 2.*e-04 of the size apart; .* --weld 3e-04$" "$work/out" ||
+    fail "a seam: $(cat "$work/out")"
+"$COSEG" check --weld 3e-04 "$work/odd" | grep -q "p6.off: .* 1 piece; .*24 vertices on borders that nearly touch are welded$" || fail "--weld"
+for set in once odd; do
+    "$COSEG" run --quiet --parts 2 --patches 10 --geodesic-samples 40 --no-html --no-sheet --weld 3e-04 --out "$work/run_$set" "$work/$set" 2>"$work/err"
+done
+for name in p6 p7; do cmp "$work"/run_{once,odd}/labels/$name.seg || fail "$name: a seam changes labels"; done
+cat "$work"/run_once/labels/p5.seg{,} | cmp - "$work/run_odd/labels/p5.seg" || fail "doubled faces have other labels than the faces once"
+refuses "a tolerance that is none" 2 "is none of auto, exact" "$COSEG" check --weld 1 "$work/odd"

@@ -53,6 +53,7 @@ const std::map<std::string, std::vector<std::string>> changes = {
     {"html", {"--no-html"}},
     {"view", {"--view=front"}},
     {"up", {"--up=z"}},
+    {"weld", {"--weld=1e-4"}},
     {"remesh", {"--remesh=never"}},
     {"patches", {"--patches=51"}},
     {"oversegmentations", {"--oversegmentations=2"}},
@@ -174,6 +175,16 @@ TEST(RunOptionTable, TheSeedIsThatOfEveryStage) {
     for (const std::uint64_t seed :
          {options.description.seed, options.features.seed, options.optimise.seed, options.partition.seed})
         EXPECT_EQ(seed, 9U);
+}
+
+TEST(RunOptionTable, WeldingIsAWordOrATolerance) {
+    EXPECT_EQ(to_string(parsed({"--weld", "exact"}).description.weld), "exact");
+    EXPECT_EQ(parsed({"--weld", "2e-4"}).description.weld.tolerance, 2e-4);
+    EXPECT_EQ(to_string(parsed({"--weld", "2e-4"}).description.weld), "2e-04");
+    EXPECT_EQ(border_limits(parsed({}).description.weld).of_size, BorderLimits{}.of_size);
+    for (const char* text : {"0", "-1e-4", "0.02", "1e-4x", "", "always", "nan", "inf"})
+        EXPECT_FALSE(parsed_weld(text)) << text;
+    EXPECT_THROW(parsed({"--weld", "0.5"}), CLI::ValidationError);
 }
 
 TEST(RunOptionTable, LinksAreAWordOrANumber) {
