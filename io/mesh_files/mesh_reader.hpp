@@ -18,7 +18,8 @@ namespace coseg {
 /// (foreign_content.hpp). Takes no memory for more than the file really holds.
 ParsedMesh parse_mesh(std::string_view bytes, const std::string& path);
 
-/// The mesh of the file at `path`, without what parse_mesh warns of. Throws Error(input) also for a file that
+/// The mesh of the file at `path`, without what parse_mesh warns of: it is for meshes that a run or
+/// `coseg check` has spoken of. Throws Error(input) also for a file that
 /// cannot be opened or read.
 PolygonMesh read_mesh(const std::string& path);
 

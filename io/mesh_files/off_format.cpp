@@ -33,6 +33,8 @@ struct OffLayout {
     int words_behind_coordinates = 0;  ///< if not by line
     /// What follows the corners of a face on its line is its colour. Otherwise the next face may follow.
     bool faces_by_line = true;
+    /// By line, whether the corners of a face may go on in the next line all the same.
+    bool faces_wrap = false;
     bool skips_edge_count = false;
 };
 
@@ -42,7 +44,8 @@ std::vector<OffLayout> possible_layouts(const OffHeader& header) {
     using enum OffHeader::EdgeCount;
     const bool is_alone = header.edge_count == on_next_line || header.edge_count == maybe_on_next_line;
     std::vector<OffLayout> layouts{{.skips_edge_count = is_alone},
-                                   {.faces_by_line = false, .skips_edge_count = is_alone}};
+                                   {.faces_by_line = false, .skips_edge_count = is_alone},
+                                   {.faces_wrap = true, .skips_edge_count = is_alone}};
     const int others = (header.has_normals ? 3 : 0) + (header.has_texture ? 2 : 0);
     for (const bool skips_edge_count : {true, false}) {
         if (skips_edge_count ? !is_alone : header.edge_count == on_next_line) continue;
@@ -77,6 +80,12 @@ class OffReader {
         mesh.offsets.push_back(0);
         for (std::int64_t f = 0; f < header_.face_count; ++f) read_face(f);
         look_behind_the_faces();
+        if (wrapped_face_ >= 0) {
+            parsed_.warnings.push_back(path_ + ":" + std::to_string(wrapped_line_) + ": face " +
+                                       std::to_string(wrapped_face_) +
+                                       " has fewer corners on its line than it says and goes on in the next "
+                                       "one; correct the number if it is wrong");
+        }
         return unusable_.left_out_of(std::move(parsed_), path_);
     }
 
@@ -124,9 +133,26 @@ class OffReader {
         if (layout_.faces_by_line) cursor_.skip_line();
     }
 
-    void read_corner(std::int64_t f) {
-        const std::string_view word = cursor_.word_on_any_line();
+    std::string_view corner_word(std::int64_t f) {
+        const std::int64_t line = cursor_.line();
+        std::string_view word = layout_.faces_by_line ? cursor_.word() : std::string_view();
+        if (!word.empty()) return word;
+        word = cursor_.word_on_any_line();
         if (word.empty()) fail_at_end(f, header_.face_count, "faces");
+        if (!layout_.faces_by_line) return word;
+        if (!layout_.faces_wrap) {
+            throw Error(ExitCode::input, path_ + ":" + std::to_string(line) + ": face " + std::to_string(f) +
+                                             " has fewer corners on its line than it says; correct the line");
+        }
+        if (wrapped_face_ < 0) {
+            wrapped_face_ = f;
+            wrapped_line_ = line;
+        }
+        return word;
+    }
+
+    void read_corner(std::int64_t f) {
+        const std::string_view word = corner_word(f);
         std::int64_t index = 0;
         if (!parse_integer(word, index)) {
             cursor_.fail("face " + std::to_string(f) + " has " + in_quotes(word) +
@@ -163,6 +189,8 @@ class OffReader {
     std::size_t size_;
     ParsedMesh parsed_;
     UnusableVertices unusable_;
+    std::int64_t wrapped_face_ = -1;  ///< the first face whose corners go on in the next line
+    std::int64_t wrapped_line_ = 0;
 };
 
 template <typename Number>

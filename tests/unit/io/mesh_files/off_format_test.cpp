@@ -154,6 +154,26 @@ TEST(OffFormat, RefusalsNameTheCause) {
     EXPECT_NE(sentence("NXOFF\n1 1 0\n").find("begins with OFF, this one with 'NXOFF'"), std::string::npos);
 }
 
+TEST(OffFormat, FacesWithFewerCornersThanTheySayAreNotReadInSilence) {
+    const std::string header = "OFF\n4 4 6\n" + off_points;
+    // A corner is lost. What it takes from the next line is missed at the end.
+    const test::Caught lost =
+        test::error_of([&] { parse_mesh(header + "3 0 2\n3 0 1 3\n3 0 3 2\n3 1 2 3\n", "m.off"); });
+    EXPECT_NE(lost.sentence.find("m.off:7: face 0 has fewer corners on its line than it says"),
+              std::string::npos)
+        << lost.sentence;
+    // So that nothing is missed, the file has a face more than its header promises: it is read, and named.
+    const ParsedMesh odd = parse_mesh(header + "3 0 2\n3 0 1 3\n3 0 1 3\n3 0 3 2\n3 1 2 3\n", "m.off");
+    ASSERT_EQ(odd.warnings.size(), 1U);
+    EXPECT_NE(odd.warnings[0].find("m.off:7: face 0 has fewer corners on its line"), std::string::npos);
+    // A face may be wrapped: with colours behind it, that is said; without, the format is free.
+    EXPECT_EQ(
+        parse_mesh(header + "3 0 2\n1 9 9 9\n3 0 1 3 9 9 9\n3 0 3 2\n3 1 2 3\n", "m.off").warnings.size(),
+        1U);
+    const ParsedMesh free = parse_mesh(header + "3 0 2\n1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n", "m.off");
+    expect_tetrahedron(free);
+}
+
 TEST(OffFormat, DownloadedMeshWithParametersBehindItsFaces) {
     const std::string path = test::measured_file("as_downloaded/psb_cup_21.off");
     if (path.empty()) GTEST_SKIP() << "no downloaded meshes; set COSEG_DATA";
