@@ -182,6 +182,7 @@ void return_freed_memory() {
 int main(int argc, char** argv) {
     coseg::launch_on_all_cores(argc, argv);
     if (has_state_folder(argc, argv)) coseg::heed_stop_requests();
+    coseg::let_long_files_fail();
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);  // threads that watch call no MPI
     return_freed_memory();

@@ -22,6 +22,10 @@ std::string temporary_path(const std::string& path) {
     return path.substr(0, name_begin + longest - 16) + std::to_string(hash_text(path)) + mark;
 }
 
+bool is_cause_of_writing(int cause) {
+    return cause == ENOSPC || cause == EDQUOT || cause == EFBIG || cause == EIO;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), temporary_(temporary_path(path)) {
@@ -37,8 +41,12 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::commit() {
-    errno = 0;
+    // Where an earlier write has failed, its cause may still be there.
+    const bool has_failed = !stream_;
+    if (!has_failed || !is_cause_of_writing(errno)) errno = 0;
+    const int cause = errno;
     stream_.close();
+    if (has_failed) errno = cause;
     if (!stream_) fail("cannot be written");
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
     is_committed_ = true;

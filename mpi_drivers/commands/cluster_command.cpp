@@ -12,6 +12,7 @@
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
+#include "solvers/numeric/blas.hpp"
 #include "solvers/partition/patch_partition.hpp"
 #include "solvers/petsc/petsc_session.hpp"
 #include "solvers/subspace/mesh_links.hpp"
@@ -179,6 +180,7 @@ void cluster_file(const Invocation& invocation, const ClusterSettings& settings)
     if (!unknown.empty())
         throw AgreedError(ExitCode::usage, "after --: " + unknown + " is not an option of PETSc or SLEPc");
     const PetscSession session(invocation.petsc_arguments);
+    agree(comm, reserve_blas_memory);
     FeatureMatrices features;
     const FeatureFile file = read_and_broadcast(comm, settings.path, features);
     SubspaceProblem problem = make_problem(file, std::move(features), settings);

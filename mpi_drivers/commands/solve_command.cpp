@@ -10,6 +10,7 @@
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
+#include "solvers/numeric/blas.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "solvers/variants/subspace_variants.hpp"
 #include "src/base/stopwatch.hpp"
@@ -68,6 +69,7 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
             "--links needs --scope meshes and a variant that keeps it; row scope, ssc and ssqp are "
             "over all pairs");
     }
+    agree(comm, reserve_blas_memory);
     FeatureMatrices features;
     const ProblemFile file = broadcast_problem(comm, settings.path, features);
     const SubspaceProblem problem = problem_of(file, std::move(features), settings);

@@ -1,5 +1,6 @@
 #include "mpi_drivers/process/checked_petsc.hpp"
 
+#include "solvers/numeric/blas.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -28,6 +29,7 @@ void refuse_unused_with(const Comm& comm, const std::string& prefix) {
 
 CheckedPetsc::CheckedPetsc(const Comm& comm, const std::vector<std::string>& arguments)
     : session_(known(arguments)) {
+    agree(comm, reserve_blas_memory);
     refuse_unused_with(comm, "-eps_");  // the eigensolver's are all known before the run
 }
 

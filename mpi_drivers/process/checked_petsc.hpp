@@ -12,7 +12,8 @@ namespace coseg {
 class CheckedPetsc {
   public:
     /// arguments: what follows `--` on the command line. Collective; throws AgreedError(usage) for what
-    /// cannot be an option of PETSc or SLEPc, and for options of the eigensolver that it does not know.
+    /// cannot be an option of PETSc or SLEPc, and for options of the eigensolver that it does not know, and
+    /// AgreedError(internal) where a rank has no memory for the products of matrices.
     CheckedPetsc(const Comm& comm, const std::vector<std::string>& arguments);
 
     /// At the end of a run, when all options that a solver asks for have been asked for. Collective; throws

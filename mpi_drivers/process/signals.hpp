@@ -21,6 +21,10 @@ namespace coseg {
 /// while the program starts or ends then counts like one that comes in between.
 void heed_stop_requests();
 
+/// A write beyond what `ulimit -f` allows fails from now on, as on a full disk, instead of ending the process
+/// (SIGXFSZ).
+void let_long_files_fail();
+
 /// During its lifetime stop requests are heeded: the stages look at the flag between meshes and iterations,
 /// and end with the state written. There is at most one in a process.
 class StopRequest {

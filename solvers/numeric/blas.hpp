@@ -38,4 +38,9 @@ void multiply(const MatrixView<const double>& A, const MatrixView<const double>&
 /// for the same cores.
 void use_one_blas_thread();
 
+/// Makes the BLAS take the memory that its products need. OpenBLAS takes it at the first product, and where
+/// the system has none it tries again for ever. Throws std::bad_alloc where there is no room for 128 MB of
+/// address space, as much as Debian's OpenBLAS takes. Does nothing with another BLAS.
+void reserve_blas_memory();
+
 }  // namespace coseg

@@ -1,9 +1,11 @@
 #include "io/folders/output_directory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <optional>
 #include <set>
 
 #include "io/data_files/label_file.hpp"
@@ -44,6 +46,19 @@ TEST(OutputDirectory, WithoutCommitNothingStays) {
         EXPECT_TRUE(fs::exists(output.staging() + "/ply"));
     }
     EXPECT_TRUE(tree(folder.path()).empty());
+}
+
+TEST(OutputDirectory, NothingStaysWhereNoFileCanBeOpened) {
+    const TemporaryFolder folder;
+    std::optional<OutputDirectory> output(std::in_place, folder.path("out"), false);
+    rlimit limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
+    rlimit none = limit;
+    none.rlim_cur = 0;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+    output.reset();
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
+    EXPECT_EQ(tree(folder.path()), std::set<std::string>());
 }
 
 TEST(OutputDirectory, AnEmptyFolderIsTaken) {
