@@ -123,6 +123,9 @@ class Run:
 
     def kill(self, way, rng):
         ranks = ranks_of(self.process.pid, self.options.coseg)
+        while not ranks and way.endswith(" rank") and self.process.poll() is None:  # none is loaded yet
+            time.sleep(0.005)
+            ranks = ranks_of(self.process.pid, self.options.coseg)
         if way.endswith(" rank"):
             victims = [(pid, getattr(signal, "SIG" + way.split()[0])) for pid in rng.sample(ranks, min(1, len(ranks)))]
         elif way == "KILL all":

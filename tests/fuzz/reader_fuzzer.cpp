@@ -1,6 +1,6 @@
-// Gives a reader bytes that libFuzzer makes up (tests/fuzz/run.sh). COSEG_FUZZED says which reader: the
-// suffix of a mesh format, ".seg" for labels, or ".txt" for names. Whatever the bytes are, the reader must
-// return what its header says, or throw Error(input) with a sentence.
+// Gives a reader bytes that libFuzzer makes up (tests/fuzz/run.sh). The variable COSEG_FUZZED says which
+// reader: the suffix of a mesh format, ".seg" for labels, or ".txt" for names. Whatever the bytes are, the
+// reader must return what its header says, or throw Error(input) with a sentence.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -57,14 +57,24 @@ class MemoryFile {
     int file_;
 };
 
+/// The suffix of what is fuzzed.
+const std::string& fuzzed_suffix() {
+    static const std::string suffix = [] {
+        const char* given = std::getenv("COSEG_FUZZED");
+        require(given != nullptr, "COSEG_FUZZED is not set");
+        return std::string(given);
+    }();
+    return suffix;
+}
+
 void read(std::string_view bytes) {
-    const std::string_view suffix = COSEG_FUZZED;
+    const std::string& suffix = fuzzed_suffix();
     if (suffix == ".seg") {
         coseg::read_labels(MemoryFile(bytes).path(), -1);
     } else if (suffix == ".txt") {
         coseg::read_names(MemoryFile(bytes).path());
     } else {
-        const coseg::ParsedMesh parsed = coseg::parse_mesh(bytes, "fuzzed" COSEG_FUZZED);
+        const coseg::ParsedMesh parsed = coseg::parse_mesh(bytes, "fuzzed" + suffix);
         require_sound(parsed.mesh);
         for (const std::string& warning : parsed.warnings)
             require(warning.starts_with("fuzzed") && coseg::is_utf8(warning),

@@ -3,23 +3,32 @@
 #
 #   tests/fuzz/run.sh [SECONDS [SUFFIX ...]]     60 seconds each of .off .obj .ply .stl .seg .txt
 #
-# Needs clang++ with its runtime libraries (Debian: clang, libclang-rt-14-dev). The fuzzers are built in build-fuzz/. They
-# start from tests/corpus and keep what they find new in build-fuzz/corpus. A finding ends the script with exit code 1, and
-# the bytes that led to it are build-fuzz/finding-*: put them into tests/corpus with the correction.
+# Needs clang++ with its runtime libraries (Debian: clang, libclang-rt-14-dev); without them it says so and ends with 77. The
+# fuzzers are built in COSEG_FUZZ_BUILD, or build-fuzz/. They start from tests/corpus and keep what they find new in corpus/
+# there. A finding ends the script with exit code 1, and the bytes that led to it are finding-* there: put them into
+# tests/corpus with the correction.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 seconds=${1:-60}
 shift $(($# > 0 ? 1 : 0))
 suffixes=("$@")
 ((${#suffixes[@]} > 0)) || suffixes=(.off .obj .ply .stl .seg .txt)
-build=$root/build-fuzz
+build=${COSEG_FUZZ_BUILD:-$root/build-fuzz}
 mkdir -p "$build"
+if ! command -v clang++ >/dev/null ||
+    ! echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
+        clang++ -fsanitize=fuzzer,address,undefined -x c++ -o "$build/probe" - 2>/dev/null; then
+    echo "skipped: no clang++ with its runtime libraries (Debian: clang, libclang-rt-14-dev)"
+    exit 77
+fi
 
 sources=("$root"/io/mesh_files/*.cpp "$root"/io/data_files/{label,name}_file.cpp
     "$root"/io/files/{atomic_file,file_contents,text_cursor,text_encoding}.cpp "$root"/src/base/*.cpp
     "$root"/src/pictures/part_colors.cpp)
 checks=("-fsanitize=address,undefined" -fno-sanitize-recover=undefined -D_GLIBCXX_ASSERTIONS)
-compile=(clang++ -std=c++20 -O1 -g1 "${checks[@]}" "-I$root" -isystem /usr/include/eigen3)
+ccache=()
+if command -v ccache >/dev/null; then ccache=(ccache); fi
+compile=("${ccache[@]}" clang++ -std=c++20 -O1 -g1 "${checks[@]}" "-I$root" -isystem /usr/include/eigen3)
 
 echo "building the readers"
 mkdir -p "$build/objects"
@@ -27,23 +36,26 @@ for source in "${sources[@]}"; do
     printf '%s\0' -o "$build/objects/$(basename "$source").o" "$source"
 done | xargs -0 -n 3 -P "$(nproc)" "${compile[@]}" -fsanitize=fuzzer-no-link -c
 
-# fuzz SUFFIX : builds the fuzzer of one reader and runs it.
+program=$build/reader_fuzzer
+"${compile[@]}" -fsanitize=fuzzer-no-link -c -o "$build/reader_fuzzer.o" "$root/tests/fuzz/reader_fuzzer.cpp"
+clang++ "${checks[@]}" -fsanitize=fuzzer -o "$program" "$build/reader_fuzzer.o" "$build"/objects/*.o
+
+# fuzz SUFFIX : fuzzes one reader.
 fuzz() {
     local suffix=$1
-    local program=$build/fuzz$suffix found=$build/corpus/$suffix seeds=$build/seeds/$suffix
-    "${compile[@]}" -fsanitize=fuzzer "-DCOSEG_FUZZED=\"$suffix\"" -o "$program" "$root/tests/fuzz/reader_fuzzer.cpp" \
-        "$build"/objects/*.o
+    local found=$build/corpus/$suffix seeds=$build/seeds/$suffix
     rm -rf "$seeds"
     mkdir -p "$found" "$seeds"
     find "$root/tests/corpus" -name "*$suffix" -exec cp --target-directory="$seeds" {} +
     echo "fuzzing the reader of $suffix for $seconds s"
-    "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 -verbosity=0 \
+    COSEG_FUZZED=$suffix "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 -verbosity=0 \
         -artifact_prefix="$build/finding-" "$found" "$seeds" 2>&1 | tee "$build/log$suffix" | grep -E "ERROR|SUMMARY|number_of" ||
         true
     if compgen -G "$build/finding-*" >/dev/null; then
         echo "a finding: $(ls "$build"/finding-*); see $build/log$suffix" >&2
         return 1
     fi
+    grep -q number_of_executed_units "$build/log$suffix" || { cat "$build/log$suffix" >&2; return 1; }
 }
 
 for suffix in "${suffixes[@]}"; do fuzz "$suffix"; done

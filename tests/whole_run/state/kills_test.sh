@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs that are killed at random moments and continue on other numbers of ranks end with the bytes of a run left alone: a few
-# rounds of bench/kills.py, other moments every time.
+# rounds of bench/kills.py, other moments every time. Single bits that are flipped in what runs keep are found or do no harm: a few
+# flips of bench/flips.py.
 set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
@@ -10,3 +11,7 @@ echo "seed $seed"
 timeout --signal=KILL 500 python3 "$COSEG_SOURCE/bench/kills.py" --coseg "$COSEG" --kills 6 --shapes 6 --seed "$seed" --scratch "$work/kills" \
     --out "$work/kills.json" -- --patches 20 --geodesic-samples 100 || fail "kills.py; its rounds: $(cat "$work/kills.json")"
 echo "ok: $(python3 -c 'import json, sys; print(sum(len(r["kills"]) for r in json.load(open(sys.argv[1]))["rounds"]))' "$work/kills.json") kills"
+
+python3 "$COSEG_SOURCE/bench/flips.py" --coseg "$COSEG" --flips 36 --seed "$seed" --scratch "$work" --out "$work/flips.json" ||
+    fail "flips.py: $(cat "$work/flips.json")"
+echo "ok: 36 flips of a bit"

@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""Flips single bits in the files that runs keep and read again, and sees that each flip is detected or harmless.
+
+    bench/flips.py --coseg build/bin/coseg [--flips 1000] [--seed 1] [--kinds KIND ...] [--shapes 4] [--faces 2000]
+                   [--out flips.json] [--scratch DIR]
+
+The files are those of a small run with a state folder, --keep-features and
+a model. One
+bit of one file is flipped; of every two flips one is among the first 2,048 bytes, where the headers are. Then the command that
+reads the file is given it:
+
+    describe, solver, cut   `coseg run --state`, with all that comes after the file removed from the state folder, so that it is read
+    model                   `coseg assign`
+    features                `coseg cluster`
+    report                  `coseg export --to obj` and `coseg render` of the finished run
+
+A flip is harmless if the command ends with code 0 and gives the same bytes as with the healthy file (labels, patches, clusters,
+coefficients, drawn meshes); detected if it ends with one of the documented codes and a sentence of its own, or if it says in a
+warning that the file is damaged and gives those bytes. Anything else, a signal, a hang or other bytes, is a failure, and the
+damaged file is kept in the scratch folder. The same seed makes the same flips. The exit code is 1 if there is a failure.
+"""
+import argparse
+import json
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+LIMIT_SECONDS = 60
+HEAD = 2048
+CODES = {1, 2, 3, 4, 5}
+
+
+class Bench:
+    def __init__(self, options, scratch):
+        self.coseg, self.scratch = str(options.coseg.resolve()), scratch
+        self.environment = dict(os.environ, COSEG_RANKS="1", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1",
+                                OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        self.quick = ["--quiet", "--parts", "2", "--patches", "10", "--geodesic-samples", "50", "--no-html", "--no-sheet"]
+        self.shapes, self.run_folder, self.state = scratch / "shapes", scratch / "run", scratch / "state"
+        self.must("generate", "table", "--count", str(options.shapes), "--faces", str(options.faces), "--out", str(self.shapes))
+        self.must(*self.run_words(self.run_folder), "--keep-features", "--state", str(self.state))
+
+    def call(self, *words):
+        return subprocess.run([self.coseg, *map(str, words)], env=self.environment, timeout=LIMIT_SECONDS, text=True,
+                              errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+
+    def must(self, *words):
+        done = self.call(*words)
+        if done.returncode != 0:
+            sys.exit(f"coseg {' '.join(map(str, words))} ends with {done.returncode}:\n{done.stdout}")
+
+    def run_words(self, out):
+        return ["run", *self.quick, "--out", str(out), str(self.shapes / "meshes")]
+
+
+def contents(folder, names):
+    """Bytes of the files below the folder whose path matches."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*"))
+            if path.is_file() and re.search(names, str(path.relative_to(folder)))}
+
+
+class Kind:
+    """Files of one kind, and the command that reads them. `read(place)` returns the finished process and what it gave."""
+
+    def __init__(self, bench):
+        self.bench = bench
+
+    def copy(self):
+        place = self.bench.scratch / "tried"
+        shutil.rmtree(place, ignore_errors=True)
+        place.mkdir()
+        return place
+
+
+class State(Kind):
+    def __init__(self, bench, pattern, removed):
+        super().__init__(bench)
+        self.pattern, self.removed = pattern, removed
+
+    def files(self, place):
+        shutil.copytree(self.bench.state, place / "state", copy_function=shutil.copy2)
+        for name in self.removed:
+            shutil.rmtree(place / "state" / name, ignore_errors=True)
+        return sorted((place / "state").glob(self.pattern))
+
+    def read(self, place):
+        done = self.bench.call(*self.bench.run_words(place / "out"), "--state", place / "state")
+        return done, contents(place / "out", "^(labels|patches)/") if done.returncode == 0 else {}
+
+
+class OfRun(Kind):
+    """A file of the finished run."""
+
+    def __init__(self, bench, name, words, results):
+        super().__init__(bench)
+        self.name, self.words, self.results = name, words, results
+
+    def files(self, place):
+        shutil.copytree(self.bench.run_folder, place / "run")
+        return [place / "run" / self.name]
+
+    def read(self, place):
+        given = {}
+        for number, words in enumerate(self.words):
+            out = place / f"out{number}"
+            replace = {"RUN": place / "run", "FEATURES": place / "run/features.h5", "OUT": out, "MESHES": self.bench.shapes / "meshes"}
+            done = self.bench.call(*(replace.get(word, word) for word in words))
+            if done.returncode != 0:
+                return done, {}
+            given[number] = contents(out, self.results) if out.is_dir() else out.read_bytes()
+        return done, given
+
+
+def flip(path, rng):
+    size = path.stat().st_size
+    place = rng.randrange(min(size, HEAD)) if rng.random() < 0.5 else rng.randrange(size)
+    bit = rng.randrange(8)
+    with open(path, "r+b") as file:
+        file.seek(place)
+        byte = file.read(1)[0]
+        file.seek(place)
+        file.write(bytes([byte ^ (1 << bit)]))
+    return place, bit
+
+
+def verdict(done, given, expected):
+    says = [line for line in done.stdout.splitlines() if line.startswith(("coseg", "error", "warning")) or "warning" in line]
+    if done.returncode == 0:
+        if given != expected:
+            return "failed", "other bytes without a word" if not says else "other bytes: " + says[0]
+        return ("detected" if any("damaged" in line for line in says) else "harmless"), says[0] if says else ""
+    if done.returncode in CODES and says:
+        return "detected", says[-1]
+    return "failed", f"exit code {done.returncode}: " + " | ".join(done.stdout.splitlines()[-3:])
+
+
+def try_flip(kind, rng, expected):
+    place = kind.copy()
+    path = rng.choice(kind.files(place))
+    at, bit = flip(path, rng)
+    try:
+        outcome, says = verdict(*kind.read(place), expected)
+    except subprocess.TimeoutExpired:
+        outcome, says = "failed", f"not over after {LIMIT_SECONDS} s"
+    return {"file": str(path.relative_to(place)), "byte": at, "bit": bit, "outcome": outcome, "says": says}
+
+
+def kinds_of(bench):
+    drawn = [["export", "RUN", "--to", "obj", "--out", "OUT"], ["render", "RUN", "--out", "OUT"]]
+    return {
+        "describe": State(bench, "meshes/*/*.h5", ["solver", "cuts"]),
+        "solver": State(bench, "solver/*/*.h5", ["cuts"]),
+        "cut": State(bench, "cuts/*.h5", []),
+        "model": OfRun(bench, "model.h5", [["assign", "--quiet", "--no-html", "--no-sheet", "--to", "RUN", "--out", "OUT", "MESHES"]],
+                       "^(labels|patches)/"),
+        "features": OfRun(bench, "features.h5", [["cluster", "FEATURES", "--parts", "2", "--out", "OUT"]], "."),
+        "report": OfRun(bench, "report.json", drawn, "."),
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--coseg", required=True, type=pathlib.Path)
+    parser.add_argument("--flips", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--shapes", type=int, default=4)
+    parser.add_argument("--faces", type=int, default=2000)
+    parser.add_argument("--kinds", nargs="+")
+    parser.add_argument("--out", type=pathlib.Path)
+    parser.add_argument("--scratch", type=pathlib.Path)
+    options = parser.parse_args()
+    rng = random.Random(options.seed)
+    with tempfile.TemporaryDirectory(dir=options.scratch) as scratch:
+        bench = Bench(options, pathlib.Path(scratch))
+        kinds = {name: kind for name, kind in kinds_of(bench).items() if not options.kinds or name in options.kinds}
+        expected = {}
+        for name, kind in kinds.items():
+            place = kind.copy()
+            kind.files(place)
+            done, expected[name] = kind.read(place)
+            if done.returncode != 0 or not expected[name]:
+                sys.exit(f"{name}: the healthy file gives code {done.returncode}:\n{done.stdout}")
+        rows = []
+        for number in range(options.flips):
+            name = list(kinds)[number % len(kinds)]
+            row = {"kind": name, **try_flip(kinds[name], rng, expected[name])}
+            rows.append(row)
+            if row["outcome"] == "failed":
+                print(f"{name}: {row['file']} byte {row['byte']} bit {row['bit']}: {row['says']}", file=sys.stderr, flush=True)
+    for name in kinds:
+        count = lambda outcome: sum(1 for row in rows if row["kind"] == name and row["outcome"] == outcome)
+        print(f"{name:>10}: {count('detected')} detected, {count('harmless')} harmless, {count('failed')} failed")
+    failed = [row for row in rows if row["outcome"] == "failed"]
+    print(f"{len(rows)} flips: {len(rows) - len(failed)} detected or harmless, {len(failed)} failed")
+    if options.out:
+        options.out.write_text(json.dumps({"format": "coseg flips 1", "seed": options.seed, "flips": rows}, indent=1) + "\n", encoding="utf-8")
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
