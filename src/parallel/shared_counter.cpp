@@ -2,11 +2,20 @@
 
 #include <exception>
 
+#include "src/base/error.hpp"
+
 namespace coseg {
 
 SharedCounter::SharedCounter(const Comm& comm) {
     const MPI_Aint bytes = comm.is_root() ? static_cast<MPI_Aint>(sizeof(std::int64_t)) : 0;
-    MPI_Win_allocate(bytes, sizeof(std::int64_t), MPI_INFO_NULL, comm.raw(), &value_, &window_);
+    MPI_Comm_set_errhandler(comm.raw(), MPI_ERRORS_RETURN);
+    const int outcome =
+        MPI_Win_allocate(bytes, sizeof(std::int64_t), MPI_INFO_NULL, comm.raw(), &value_, &window_);
+    MPI_Comm_set_errhandler(comm.raw(), MPI_ERRORS_ARE_FATAL);
+    if (outcome != MPI_SUCCESS) {
+        throw Error(ExitCode::internal,
+                    "MPI has no shared memory left for its windows; make room in /dev/shm");
+    }
     if (comm.is_root()) {
         MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, window_);
         *value_ = 0;

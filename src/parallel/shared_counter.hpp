@@ -11,7 +11,8 @@ namespace coseg {
 
 /// next() gives 0, 1, 2, ..., each to exactly one caller, in the order in which ranks ask. It is one-sided:
 /// no rank waits for another, though across nodes rank 0 may answer only while it is inside MPI. Construction
-/// and destruction are collective.
+/// and destruction are collective. Where MPI cannot make its window, each rank that finds out throws
+/// Error(internal) by itself, since others may wait in the same call for ever.
 class SharedCounter {
   public:
     explicit SharedCounter(const Comm& comm);
