@@ -356,7 +356,7 @@ void OutputDirectory::move_into_existing() const {
 void OutputDirectory::remove_partial() noexcept {
     std::error_code ignored;
     // Folders that are still empty go without a file being opened, which a process may not be able to do.
-    for (const OwnFolder& own : own_folders) fs::remove(staging_ + "/" + own.name, ignored);
+    for (const OwnFolder& own : own_folders) fs::remove(staging_ + "/" + std::string(own.name), ignored);
     fs::remove(staging_, ignored);
     // Other ranks may still be writing: a file that appears while the folder is emptied keeps it.
     constexpr int attempts = 20;

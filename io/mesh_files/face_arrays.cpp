@@ -4,6 +4,11 @@
 
 namespace coseg {
 
+std::string part_name(const FaceArrays& arrays, int part) {
+    const auto number = static_cast<std::size_t>(part);
+    return number < arrays.part_names.size() ? arrays.part_names[number] : "part_" + std::to_string(part);
+}
+
 const std::vector<int>& parts_of(const FaceArrays& arrays, int face_count, const std::string& path) {
     const std::size_t labels = arrays.labels.empty() ? 0 : arrays.labels.front().second.size();
     if (!arrays.labels.empty() && labels == static_cast<std::size_t>(face_count))

@@ -11,7 +11,12 @@ namespace coseg {
 struct FaceArrays {
     std::vector<std::pair<std::string, std::vector<int>>> labels;
     std::vector<std::pair<std::string, std::vector<double>>> values;
+    /// Of the parts, for formats that name them; a part beyond its end is called part_NUMBER.
+    std::vector<std::string> part_names = {};
 };
+
+/// The name of a part.
+std::string part_name(const FaceArrays& arrays, int part);
 
 /// The part of each of `face_count` faces. Error(internal) naming `path`, the file to be written, if there is
 /// no such array or it has another number of values.

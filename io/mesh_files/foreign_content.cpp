@@ -16,7 +16,7 @@ struct Beginning {
 };
 
 constexpr std::string_view unpack = "; unpack it and give the meshes inside";
-constexpr std::string_view convert = "; convert it to OFF, OBJ, PLY or STL";
+constexpr std::string_view convert = "; convert it to OFF, OBJ, PLY, STL or GLB";
 
 constexpr std::array packed{Beginning{"pk\x03\x04", "a ZIP archive"},
                             Beginning{"\x1f\x8b", "a gzip archive"},
@@ -26,24 +26,16 @@ constexpr std::array packed{Beginning{"pk\x03\x04", "a ZIP archive"},
                             Beginning{"rar!", "a RAR archive"},
                             Beginning{"\x28\xb5\x2f\xfd", "a Zstandard archive"}};
 
-constexpr std::array other_formats{Beginning{"gltf", "a binary glTF file"},
-                                   Beginning{"kaydara fbx", "an FBX file"},
-                                   Beginning{"; fbx", "an FBX file"},
-                                   Beginning{"#vrml", "a VRML file"},
-                                   Beginning{"#inventor", "an Open Inventor file"},
-                                   Beginning{"# vtk datafile", "a VTK file"},
-                                   Beginning{"iso-10303-21", "a STEP file"},
-                                   Beginning{"blender", "a Blender file"},
-                                   Beginning{"meshversionformatted", "a Medit file"},
-                                   Beginning{"$meshformat", "a Gmsh file"},
-                                   Beginning{"\x89hdf", "an HDF5 file"},
-                                   Beginning{"matlab ", "a MATLAB file"},
-                                   Beginning{"%pdf", "a PDF document"},
-                                   Beginning{"\x89png", "a PNG picture"},
-                                   Beginning{"\xff\xd8\xff", "a JPEG picture"},
-                                   Beginning{"gif8", "a GIF picture"},
-                                   Beginning{"\x7f\x65lf", "a program"},
-                                   Beginning{"<?xml", "an XML file"}};
+constexpr std::array other_formats{
+    Beginning{"kaydara fbx", "an FBX file"},   Beginning{"; fbx", "an FBX file"},
+    Beginning{"#vrml", "a VRML file"},         Beginning{"#inventor", "an Open Inventor file"},
+    Beginning{"# vtk datafile", "a VTK file"}, Beginning{"iso-10303-21", "a STEP file"},
+    Beginning{"blender", "a Blender file"},    Beginning{"meshversionformatted", "a Medit file"},
+    Beginning{"$meshformat", "a Gmsh file"},   Beginning{"\x89hdf", "an HDF5 file"},
+    Beginning{"matlab ", "a MATLAB file"},     Beginning{"%pdf", "a PDF document"},
+    Beginning{"\x89png", "a PNG picture"},     Beginning{"\xff\xd8\xff", "a JPEG picture"},
+    Beginning{"gif8", "a GIF picture"},        Beginning{"\x7f\x65lf", "a program"},
+    Beginning{"<?xml", "an XML file"}};
 
 constexpr std::array<std::string_view, 4> web_pages{"<!doctype html", "<html", "<head", "<!--"};
 
@@ -77,6 +69,19 @@ std::string_view mesh_format_of(std::string_view bytes) {
     return {};
 }
 
+/// Every glTF file in JSON has an object of this name.
+bool is_gltf_text(std::string_view bytes) { return bytes.find("\"asset\"") != std::string_view::npos; }
+
+/// Readers of either glTF format take both forms.
+std::optional<std::string> other_gltf(std::string_view bytes, std::string_view beginning,
+                                      std::string_view format) {
+    if (format == "GLB" || format == "glTF") return std::nullopt;
+    if (bytes.starts_with("glTF")) return "a binary glTF file by its content; give it the suffix .glb";
+    if (beginning.starts_with("{") && is_gltf_text(bytes))
+        return "a glTF file by its content; give it the suffix .gltf";
+    return std::nullopt;
+}
+
 std::optional<std::string> not_a_mesh(std::string_view bytes, std::string_view beginning) {
     if (beginning.starts_with("version https://git-lfs"))
         return "a Git LFS pointer, not the mesh itself; fetch the mesh with 'git lfs pull'";
@@ -102,7 +107,8 @@ std::optional<std::string> foreign_content(std::string_view bytes, std::string_v
     if (std::optional<std::string> what = named(beginning, packed, unpack)) return what;
     if (std::optional<std::string> what = named(beginning, other_formats, convert)) return what;
     if (beginning.starts_with("<")) return "text in XML or HTML, not a mesh; download the mesh again";
-    if (beginning.starts_with("{"))
+    if (const std::optional<std::string> what = other_gltf(bytes, beginning, format)) return what;
+    if (beginning.starts_with("{") && !is_gltf_text(bytes))
         return "text in JSON, perhaps of a server; download the mesh again, or convert it";
     const std::string_view found = mesh_format_of(bytes);
     if (found.empty() || found == format) return std::nullopt;

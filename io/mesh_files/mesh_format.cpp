@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <iterator>
 
+#include "io/gltf/gltf_container.hpp"
+#include "io/mesh_files/gltf_format.hpp"
 #include "io/mesh_files/obj_format.hpp"
 #include "io/mesh_files/off_format.hpp"
 #include "io/mesh_files/ply_format.hpp"
@@ -17,15 +19,22 @@ namespace coseg {
 
 namespace {
 
-constexpr std::array<MeshFormat, 5> formats{{
-    {.name = "OFF", .suffix = ".off", .read = read_off},
+constexpr std::array<MeshFormat, 7> formats{{
+    {.name = "OFF", .suffix = ".off", .read = read_off, .write = write_labelled_off},
     {.name = "OBJ",
      .suffix = ".obj",
      .read = read_obj,
      .write = write_obj,
      .write_shared = write_obj_materials},
     {.name = "PLY", .suffix = ".ply", .read = read_ply, .write = write_ply},
-    {.name = "STL", .suffix = ".stl", .read = read_stl},
+    {.name = "STL", .suffix = ".stl", .read = read_stl, .write = write_stl},
+    {.name = "GLB",
+     .suffix = ".glb",
+     .read = read_gltf,
+     .write = write_glb,
+     .gather = with_buffer_files,
+     .write_like = write_glb_like},
+    {.name = "glTF", .suffix = ".gltf", .read = read_gltf, .gather = with_buffer_files},
     {.name = "VTK",
      .suffix = ".vtp",
      .write = write_vtp,

@@ -32,6 +32,14 @@ struct MeshFormat {
     /// no array of parts, or an array has not one value per face. nullptr for a format that is only read.
     void (*write)(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) = nullptr;
 
+    /// Makes one string of the bytes of the file at `path` and of the files that it refers to and needs,
+    /// which `read` then takes. Throws Error(input). nullptr if a file of the format stands alone.
+    std::string (*gather)(std::string bytes, const std::string& path) = nullptr;
+
+    /// Writes the file `source`, from which `read` makes the mesh, again with its parts, and with all else
+    /// that it holds. Throws as `write` and `read`. nullptr if the format holds no more than `write` writes.
+    void (*write_like)(const std::string& path, const MeshSource& source, const FaceArrays& arrays) = nullptr;
+
     /// Whether `write` keeps arrays.values, which are costly to find.
     bool keeps_values = false;
 
@@ -55,16 +63,16 @@ std::string suffix_of(const std::string& path);
 /// The row of the path's suffix if it can be read; nullptr otherwise.
 const MeshFormat* readable_format_of(const std::string& path);
 
-/// The names of the rows that can be written, in lower case: "obj", "ply", "vtk".
+/// The names of the rows that can be written, in lower case: "off", "obj", "ply".
 std::vector<std::string> writable_formats();
 
 /// The row of such a name.
 const MeshFormat& writable_format(const std::string& name);
 
-/// "OFF, OBJ, PLY, STL": the rows that can be read.
+/// "OFF, OBJ, PLY, STL, GLB, glTF": the rows that can be read.
 std::string readable_formats();
 
-/// ".off, .obj, .ply WORD .stl".
+/// ".off, .obj, .ply, .stl, .glb WORD .gltf".
 std::string readable_suffixes(std::string_view word);
 
 }  // namespace coseg

@@ -21,9 +21,10 @@ struct MeshEntry {
 };
 
 /// Expands MESH | DIRECTORY | @LIST ... into meshes sorted by name (byte order).
-/// - A directory means all that is named .off, .obj, .ply or .stl in it (in either case), but not what is
-///   hidden (.NAME). An entry that is no file there, such as a folder, a pipe or a link that leads nowhere,
-///   is listed as well, so that reading it says why it cannot be used. It gives way to a file of its name.
+/// - A directory means all that is named .off, .obj, .ply, .stl, .glb or .gltf in it (in either case), but
+///   not what is hidden (.NAME). An entry that is no file there, such as a folder, a pipe or a link that
+///   leads nowhere, is listed as well, so that reading it says why it cannot be used. It gives way to a file
+///   of its name.
 /// - @LIST is a text file or a pipe with one mesh or directory a line, in UTF-8 or UTF-16, relative to the
 ///   list's own folder, else to the current one. Blank lines are skipped, and so is everything from a # at
 ///   the start of a line or after a blank.

@@ -66,6 +66,12 @@ ParsedMesh parsed_by(const MeshFormat& format, std::string_view bytes, const std
 
 bool has_mesh_extension(const std::string& path) { return readable_format_of(path) != nullptr; }
 
+std::string mesh_file_bytes(const std::string& path) {
+    const MeshFormat& format = format_of(path);
+    std::string bytes = read_regular_file(path);
+    return format.gather == nullptr ? bytes : format.gather(std::move(bytes), path);
+}
+
 ParsedMesh parse_mesh(std::string_view bytes, const std::string& path) {
     const MeshFormat& format = format_of(path);
     if (bytes.empty()) throw Error(ExitCode::input, path + ": the file is empty; export the mesh again");
@@ -80,9 +86,6 @@ ParsedMesh parse_mesh(std::string_view bytes, const std::string& path) {
     }
 }
 
-PolygonMesh read_mesh(const std::string& path) {
-    format_of(path);
-    return parse_mesh(read_regular_file(path), path).mesh;
-}
+PolygonMesh read_mesh(const std::string& path) { return parse_mesh(mesh_file_bytes(path), path).mesh; }
 
 }  // namespace coseg

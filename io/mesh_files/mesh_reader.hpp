@@ -9,6 +9,10 @@
 
 namespace coseg {
 
+/// The bytes of the mesh file at `path`, together with those of files that it needs (the buffers of a .gltf
+/// file). Throws Error(input) for another suffix and for a file that cannot be opened or read.
+std::string mesh_file_bytes(const std::string& path);
+
 /// The polygons of a file's bytes, in the file's order: as many faces as the file has, each with its corners
 /// (a face that repeats a vertex, or has fewer than three corners or none, included). The suffix of `path`
 /// decides the format, in either case: a row of mesh_format.hpp. Text may be in UTF-8 or UTF-16. Colours,

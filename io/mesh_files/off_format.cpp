@@ -247,4 +247,9 @@ void write_off(const std::string& path, const TriMesh& mesh) {
     write_file(path, text);
 }
 
+void write_labelled_off(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
+    parts_of(arrays, mesh.face_count(), path);
+    write_off(path, mesh);
+}
+
 }  // namespace coseg

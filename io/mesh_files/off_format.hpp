@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/mesh_files/face_arrays.hpp"
 #include "io/mesh_files/parsed_mesh.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 #include "src/mesh/tri_mesh.hpp"
@@ -20,5 +21,8 @@ ParsedMesh read_off(std::string_view bytes, const std::string& path);
 /// written whole or not at all; Error(output) as in atomic_file.hpp.
 void write_off(const std::string& path, const PolygonMesh& mesh);
 void write_off(const std::string& path, const TriMesh& mesh);
+
+/// The same without its labels, of which OFF holds none. Error(internal) as parts_of.
+void write_labelled_off(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);
 
 }  // namespace coseg

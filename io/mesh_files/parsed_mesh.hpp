@@ -1,5 +1,5 @@
 #pragma once
-// What a reader makes of the bytes of a mesh file.
+// What a reader takes, and what it makes of it.
 
 #include <string>
 #include <vector>
@@ -7,6 +7,12 @@
 #include "src/mesh/polygon_mesh.hpp"
 
 namespace coseg {
+
+/// The file from which a mesh was read.
+struct MeshSource {
+    std::string path;
+    std::string bytes;  ///< those of mesh_file_bytes (mesh_reader.hpp)
+};
 
 struct ParsedMesh {
     PolygonMesh mesh;

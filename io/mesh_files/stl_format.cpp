@@ -1,11 +1,13 @@
 #include "io/mesh_files/stl_format.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 
+#include "io/files/atomic_file.hpp"
 #include "io/files/byte_cursor.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/mesh_files/corner_welder.hpp"
@@ -13,6 +15,7 @@
 #include "io/mesh_files/mesh_limits.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/mesh/face_triangles.hpp"
 
 namespace coseg {
 
@@ -279,6 +282,24 @@ ParsedMesh read_stl(std::string_view bytes, const std::string& path) {
     if (bytes.size() < header_bytes)
         throw Error(ExitCode::input, path + ": is too short for an STL file; export the mesh again");
     return read_binary(bytes, path);
+}
+
+void write_stl(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
+    parts_of(arrays, mesh.face_count(), path);
+    const std::vector<FaceTriangle> triangles = face_triangles(mesh);
+    std::string bytes(header_bytes - sizeof(std::uint32_t), ' ');
+    append_little_endian(bytes, static_cast<std::uint32_t>(triangles.size()));
+    for (const FaceTriangle& triangle : triangles) {
+        Facet facet;
+        for (std::size_t k = 0; k < facet.size(); ++k) facet[k] = mesh.vertices[at(triangle.vertices[k])];
+        const Eigen::Vector3d normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]).normalized();
+        for (const double value : normal) append_little_endian(bytes, static_cast<float>(value));
+        for (const Eigen::Vector3d& corner : facet) {
+            for (const double value : corner) append_little_endian(bytes, static_cast<float>(value));
+        }
+        append_little_endian(bytes, std::uint16_t{0});
+    }
+    write_file(path, bytes);
 }
 
 }  // namespace coseg

@@ -1,10 +1,12 @@
 #pragma once
-// Reads STL files.
+// Reads and writes STL files.
 
 #include <string>
 #include <string_view>
 
+#include "io/mesh_files/face_arrays.hpp"
 #include "io/mesh_files/parsed_mesh.hpp"
+#include "src/mesh/polygon_mesh.hpp"
 
 namespace coseg {
 
@@ -16,5 +18,10 @@ namespace coseg {
 /// last facet is left out with a warning, and coordinates that have lost digits are warned of
 /// (lost_digits.hpp). mesh_format.hpp says what all readers have in common.
 ParsedMesh read_stl(std::string_view bytes, const std::string& path);
+
+/// Writes binary STL: triangles in single precision with their normals, without labels, of which STL holds
+/// none. Polygons are cut into triangles, and faces of fewer than three corners are left out. Error(output)
+/// as atomic_file.hpp, Error(internal) as parts_of.
+void write_stl(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);
 
 }  // namespace coseg

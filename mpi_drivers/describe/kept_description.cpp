@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/files/file_contents.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "mpi_drivers/describe/description_file.hpp"
 #include "src/base/error.hpp"
@@ -43,7 +42,7 @@ std::optional<DescribedMesh> found_description(const std::string& file, int mesh
 DescribedMesh kept_description(int mesh, const MeshEntry& entry, const DescriptionOptions& options,
                                const StateFolder* folder) {
     const Clock::time_point start = Clock::now();
-    const std::string bytes = read_regular_file(entry.path);
+    const std::string bytes = mesh_file_bytes(entry.path);
     if (folder == nullptr) return describe_mesh(mesh, entry.name, entry.path, bytes, options);
     const std::string file = folder->mesh_file(description_key(bytes, entry.name, entry.path, options));
     std::string warning;

@@ -5,7 +5,6 @@
 #include <new>
 #include <utility>
 
-#include "io/files/file_contents.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -26,7 +25,7 @@ int piece_count(TriMesh mesh) {
 }
 
 void read_and_repair(CheckedMesh& checked, const BorderLimits& welding) {
-    ParsedMesh parsed = parse_mesh(read_regular_file(checked.path), checked.path);
+    ParsedMesh parsed = parse_mesh(mesh_file_bytes(checked.path), checked.path);
     checked.vertices = parsed.mesh.vertex_count();
     checked.faces = parsed.mesh.face_count();
     RepairedMesh repaired = repair(parsed.mesh, checked.path, welding);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <variant>
 
-#include "io/files/file_contents.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "solvers/oversegmentation/oversegmentation.hpp"
 #include "src/base/error.hpp"
@@ -186,7 +185,7 @@ DescribedMesh describe_mesh(int mesh, const std::string& name, const std::string
 DescribedMesh describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
                                   const DescriptionOptions& options) {
     DescribedMesh described;
-    describe_surface(described, mesh, name, path, read_regular_file(path), options);
+    describe_surface(described, mesh, name, path, mesh_file_bytes(path), options);
     return described;
 }
 

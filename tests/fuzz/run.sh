@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the readers of meshes, labels and names with libFuzzer under the address and the undefined-behaviour sanitizer.
 #
-#   tests/fuzz/run.sh [SECONDS [SUFFIX ...]]     60 seconds each of .off .obj .ply .stl .seg .txt
+#   tests/fuzz/run.sh [SECONDS [SUFFIX ...]]     60 seconds each of .off .obj .ply .stl .glb .gltf .seg .txt
 #
 # Needs clang++ with its runtime libraries (Debian: clang, libclang-rt-14-dev); without them it says so and ends with 77. The
 # fuzzers are built in COSEG_FUZZ_BUILD, or build-fuzz/. They start from tests/corpus and keep what they find new in corpus/
@@ -12,7 +12,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 seconds=${1:-60}
 shift $(($# > 0 ? 1 : 0))
 suffixes=("$@")
-((${#suffixes[@]} > 0)) || suffixes=(.off .obj .ply .stl .seg .txt)
+((${#suffixes[@]} > 0)) || suffixes=(.off .obj .ply .stl .glb .gltf .seg .txt)
 build=${COSEG_FUZZ_BUILD:-$root/build-fuzz}
 mkdir -p "$build"
 if ! command -v clang++ >/dev/null ||
@@ -22,9 +22,10 @@ if ! command -v clang++ >/dev/null ||
     exit 77
 fi
 
-sources=("$root"/io/mesh_files/*.cpp "$root"/io/data_files/{label,name}_file.cpp
+sources=("$root"/io/mesh_files/*.cpp "$root"/io/gltf/*.cpp "$root"/src/mesh/{face_triangles,polygon_triangulation}.cpp
+    "$root"/io/data_files/{label,name}_file.cpp
     "$root"/io/files/{atomic_file,file_contents,text_cursor,text_encoding}.cpp "$root"/src/base/*.cpp
-    "$root"/src/pictures/part_colors.cpp)
+    "$root"/src/pictures/{part_colors,image}.cpp)
 checks=("-fsanitize=address,undefined" -fno-sanitize-recover=undefined -D_GLIBCXX_ASSERTIONS)
 ccache=()
 if command -v ccache >/dev/null; then ccache=(ccache); fi

@@ -14,7 +14,7 @@ grep -q collection.vtm "$work/out" || fail "export does not say where the collec
 [[ $(grep -c newmtl "$work/result/obj/parts.mtl") -eq 3 ]] || fail "materials"
 "$COSEG" export "$work/result" --to ply --out "$work/again" >"$work/out"
 cmp "$work/result/ply/pliers_0001.ply" "$work/again/ply/pliers_0001.ply" || fail "the exported PLY is not the run's"
-refuses "an unknown format" 2 "stl" "$COSEG" export "$work/result" --to stl
+refuses "an unknown format" 2 "dxf" "$COSEG" export "$work/result" --to dxf
 
 python=/usr/bin/python3
 if ! "$python" -c "import vtkmodules" 2>/dev/null; then
