@@ -6,11 +6,8 @@
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/optimise/solution_output.hpp"
-#include "mpi_drivers/options/run_option_table.hpp"
-#include "mpi_drivers/partition/assign_stage.hpp"
-#include "mpi_drivers/partition/run_model.hpp"
+#include "mpi_drivers/options/named_options.hpp"
 #include "mpi_drivers/process/checked_petsc.hpp"
-#include "mpi_drivers/results/label_stage.hpp"
 #include "mpi_drivers/results/run_folders.hpp"
 #include "mpi_drivers/results/run_results.hpp"
 
@@ -21,6 +18,12 @@ void assign(const Comm& comm, const std::string& run, const RunOptions& own,
     StageLog log(comm, own.process.verbosity(), own.process.log_form());
     const CheckedPetsc petsc(comm, petsc_arguments);
     const RunModel model = agreed_run_model(comm, run, log);
+    const AssignedLabels done = assign(comm, nullptr, model, run, own, log);
+    refuse_unreached_gap(done.assigned.optimisation.result, model.options.optimise.gap, own.output.folder);
+}
+
+AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, const RunModel& model,
+                      const std::string& run, const RunOptions& own, StageLog& log) {
     refuse_other_face_features(model, own.features);
     const RunOptions options = options_of_assignment(model.options, own);
     const auto& [preset, description, feature_options, optimise, partition, output, process] = options;
@@ -28,7 +31,7 @@ void assign(const Comm& comm, const std::string& run, const RunOptions& own,
 
     // Every new mesh by itself, as the run described its own.
     auto [collection, descriptors] =
-        describe_collection(comm, folders.list_meshes_outside(comm, process.inputs),
+        describe_collection(comm, folders.meshes_outside(comm, entries, process.inputs),
                             description_options(options), process.strict, folders.state(), log);
 
     // The features of its patches, in the bins and words of the run.
@@ -39,20 +42,28 @@ void assign(const Comm& comm, const std::string& run, const RunOptions& own,
         patch_features(comm, collection, std::move(weighted), feature_options, &model.bins, log);
 
     // Its patches' coefficients over the run's patches, and labels that spread from these.
-    const Assigned assigned = assign_parts(comm, collection, features, model, optimise, log);
+    Assigned assigned = assign_parts(comm, collection, features, model, optimise, log);
 
     // The parts of faces, as in the run.
-    const std::vector<MeshLabels> labels =
+    std::vector<MeshLabels> labels =
         label_faces(collection, assigned.cut, partition.parts, output.refine, log);
 
     std::vector<OptionValue> values = option_values(options);
     values.push_back({"to", run, Affects::cut});
-    write_results(comm, folders.results(),
-                  {collection, features.ranges, assigned.optimisation, assigned.cut, labels, partition.parts,
-                   values, state_summary(comm, folders.state(), nullptr, collection)},
-                  output, log);
+    const RunOutcome outcome{collection,
+                             features.ranges,
+                             assigned.optimisation,
+                             assigned.cut,
+                             labels,
+                             partition.parts,
+                             values,
+                             state_summary(comm, folders.state(), nullptr, collection)};
+    std::string report = folders.keeps_results()
+                             ? write_results(comm, folders.results(), outcome, output, log)
+                             : run_report(comm, outcome, log);
     folders.commit(comm);
-    refuse_unreached_gap(assigned.optimisation.result, optimise.gap, output.folder);
+    return {std::move(collection), std::move(assigned), std::move(labels), partition.parts,
+            std::move(report)};
 }
 
 }  // namespace coseg

@@ -5,14 +5,35 @@
 #include <vector>
 
 #include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/partition/partition_stage.hpp"
+#include "mpi_drivers/partition/run_model.hpp"
+#include "mpi_drivers/results/label_stage.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/parallel/stage_log.hpp"
 
 namespace coseg {
 
-/// Runs all stages and writes the folder of results. petsc_arguments are the words that follow `--` on the
-/// command line. Collective. Throws AgreedError. not_converged is thrown also after everything is written,
-/// where a limit ended the optimiser before its gap.
-void co_segment(const Comm& comm, const RunOptions& given,
+/// The outcome of a run. Labels and descriptions of meshes are on the ranks that hold them.
+struct CoSegmented {
+    Collection collection;
+    Optimisation optimisation;
+    CutResult cut;
+    std::vector<MeshLabels> labels;
+    ModelPatches
+        model;  ///< of options.output.keep_model; on rank 0, or on all ranks where `entries` are given
+    std::string report;  ///< the text of report.json, on rank 0
+};
+
+/// Runs all stages on the meshes `entries`, or where this is null on those that options.process.inputs name.
+/// The folder of results is written if options.output.folder has a name. petsc_arguments are the words that
+/// follow `--` on the command line. The caller has started PETSc. Collective. Throws AgreedError.
+CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, const RunOptions& options,
+                       const std::vector<std::string>& petsc_arguments, StageLog& log);
+
+/// The command: starts PETSc, runs all stages and writes the folder of results. Collective. Throws
+/// AgreedError. not_converged is thrown also after everything is written, where a limit ended the optimiser
+/// before its gap.
+void co_segment(const Comm& comm, const RunOptions& options,
                 const std::vector<std::string>& petsc_arguments = {});
 
 }  // namespace coseg

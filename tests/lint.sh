@@ -19,7 +19,7 @@ case "${1:-}" in
     format)
         need clang-format
         folders=()
-        for folder in src io solvers mpi_drivers tests bench; do
+        for folder in include src io solvers mpi_drivers python examples tests bench; do
             if [[ -d $folder ]]; then folders+=("$folder"); fi
         done
         find "${folders[@]}" \( -name '*.cpp' -o -name '*.hpp' \) -print0 |

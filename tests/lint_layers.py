@@ -65,9 +65,11 @@ ROOMS = {
     "mpi_drivers/finished_runs": ("mpi_drivers/describe",),
     "mpi_drivers/results": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
                             "mpi_drivers/partition", "mpi_drivers/finished_runs"),
-    # co_segmentation and assignment, the lists of the stages; main.cpp belongs to no room.
+    # co_segmentation, assignment and clustering, the lists of the stages; main.cpp belongs to no room.
     "mpi_drivers": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
                     "mpi_drivers/partition", "mpi_drivers/results"),
+    "mpi_drivers/interface": ("mpi_drivers", "mpi_drivers/describe", "mpi_drivers/optimise", "mpi_drivers/options",
+                              "mpi_drivers/finished_runs"),
     "mpi_drivers/commands": ("mpi_drivers", "mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe",
                              "mpi_drivers/optimise", "mpi_drivers/partition", "mpi_drivers/results",
                              "mpi_drivers/finished_runs"),
@@ -78,7 +80,7 @@ LIBRARY = ("src", "io", "solvers", "mpi_drivers")
 KNOWS_PETSC = ("solvers", "mpi_drivers", "tests", "bench")
 PETSC = re.compile(r"(petsc|slepc)\w*\.h$|petsc/|slepc/")
 # What a header of the library may include beside the C++ library: it becomes part of every file that includes it.
-IN_HEADERS = re.compile(r"Eigen/|mpi\.h$")
+IN_HEADERS = re.compile(r"Eigen/|mpi\.h$|coseg/coseg\.hpp$")
 STANDARD = re.compile(r"[a-z_0-9]+$")
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 FORBIDDEN = (

@@ -12,7 +12,7 @@ import sys
 
 import lint_self_test
 
-CODE_FOLDERS = ("src", "io", "solvers", "mpi_drivers", "tests", "bench", "examples")
+CODE_FOLDERS = ("include", "src", "io", "solvers", "mpi_drivers", "python", "tests", "bench", "examples")
 LONGEST_COMMENT = 110
 LONGEST_DOCUMENT_LINE = 200
 # A row of a table cannot be wrapped; what needs more room than this belongs into the text below the table.
@@ -21,7 +21,7 @@ LONGEST_TABLE_ROW = 400
 CHANGELOG = "CHANGELOG.md"
 COMMENT = re.compile(r"//.*$")
 # What a document names between backquotes or links to. Capitals stand for a name that the reader fills in.
-NAMED_PATH = re.compile(r"`((?:src|io|solvers|mpi_drivers|tests|bench|docs|jobs|examples)/[a-z0-9_./*-]+)[`:]")
+NAMED_PATH = re.compile(r"`((?:include|src|io|solvers|mpi_drivers|python|tests|bench|docs|jobs|examples)/[a-z0-9_./*-]+)[`:]")
 LINKED_PATH = re.compile(r"\]\(((?![a-z]+:)[^)#]+)")
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 

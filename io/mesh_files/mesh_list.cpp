@@ -87,7 +87,7 @@ class MeshListExpander {
         std::error_code cause;
         const bool is_file = fs::is_regular_file(path, cause);
         const std::uintmax_t bytes = is_file ? fs::file_size(path, cause) : 0;
-        found_.push_back({{path.stem().string(), path.string(), cause ? 0 : bytes}, is_file});
+        found_.push_back({{path.stem().string(), path.string(), cause ? 0 : bytes, nullptr}, is_file});
     }
 
     void add_list(const std::string& list) {

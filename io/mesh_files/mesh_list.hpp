@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "src/mesh/polygon_mesh.hpp"
 #include "src/records/fields.hpp"
 
 namespace coseg {
@@ -14,9 +15,11 @@ struct MeshEntry {
     std::string name;  ///< the file's name without folder and extension; unique in a collection
     std::string path;
     std::uintmax_t bytes = 0;  ///< the file's size; 0 if it is no file, or not to be seen
+    /// The mesh itself where it is no file but a caller's arrays. `path` is then what messages call it.
+    const PolygonView* polygons = nullptr;
     static constexpr auto fields() {
         return std::tuple(field("name", &MeshEntry::name), field("path", &MeshEntry::path),
-                          field("bytes", &MeshEntry::bytes));
+                          field("bytes", &MeshEntry::bytes), local(&MeshEntry::polygons));
     }
 };
 

@@ -22,6 +22,11 @@ std::string mesh_file_bytes(const std::string& path);
 /// (foreign_content.hpp). Takes no memory for more than the file really holds.
 ParsedMesh parse_mesh(std::string_view bytes, const std::string& path);
 
+/// The same of polygons in memory, which messages call `name`: faces and vertices are counted from 0. Throws
+/// Error(input) where the arrays do not fit together, a face refers to no vertex or uses one whose
+/// coordinates are not usable, and for a mesh that has no face or no area.
+ParsedMesh checked_polygons(const PolygonView& polygons, const std::string& name);
+
 /// The mesh of the file at `path`, without what parse_mesh warns of: it is for meshes that a run or
 /// `coseg check` has spoken of. Throws Error(input) also for a file that
 /// cannot be opened or read.

@@ -1,19 +1,17 @@
 #include "io/reports/report.hpp"
 
-#include "io/files/atomic_file.hpp"
 #include "io/reports/record_json.hpp"
 
 namespace coseg {
 
-void write_report(const std::string& path, const NamedTexts& versions, const NamedTexts& options,
-                  const Report& report) {
+std::string report_text(const NamedTexts& versions, const NamedTexts& options, const Report& report) {
     JsonTree tree;
     const JsonPlace root = tree.root();
     root.member("format").set("coseg report 1");
     for (const auto& [name, version] : versions) root.member("versions").member(name).set(version);
     for (const auto& [key, value] : options) root.member("options").member(key).set_typed(value);
     set_json_members(root, report);
-    write_file(path, tree.pretty() + "\n");
+    return tree.pretty() + "\n";
 }
 
 }  // namespace coseg

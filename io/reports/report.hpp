@@ -146,9 +146,8 @@ struct Report {
 /// Names and what belongs to them, as texts.
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// options: every option as resolved; those that are numbers or truth values are written so. Throws
-/// Error(output) if the file cannot be written.
-void write_report(const std::string& path, const NamedTexts& versions, const NamedTexts& options,
-                  const Report& report);
+/// The text of report.json. options: every option as resolved; those that are numbers or truth values are
+/// written so.
+std::string report_text(const NamedTexts& versions, const NamedTexts& options, const Report& report);
 
 }  // namespace coseg

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <variant>
 
 #include "io/mesh_files/mesh_reader.hpp"
@@ -137,14 +138,16 @@ void refuse_if_not_finite(const FaceDescriptors& descriptors, const std::string&
     }
 }
 
+using MeshSource = std::function<ParsedMesh()>;
+
 /// All but the patches; returns the working mesh.
 TriMesh describe_surface(DescribedMesh& described, int number, const std::string& name,
-                         const std::string& path, std::string_view bytes, const DescriptionOptions& options) {
+                         const std::string& path, const MeshSource& read, const DescriptionOptions& options) {
     MeshDescription& mesh = described.mesh;
     StepClock clock(mesh);
     mesh.mesh = number;
     mesh.key = hash_text(name);
-    ParsedMesh parsed = parse_mesh(bytes, path);
+    ParsedMesh parsed = read();
     mesh.input = std::move(parsed.mesh);
     mesh.warnings = std::move(parsed.warnings);
     clock.end_of("read");
@@ -161,6 +164,15 @@ TriMesh describe_surface(DescribedMesh& described, int number, const std::string
     return working;
 }
 
+DescribedMesh describe_whole(int mesh, const std::string& name, const std::string& path,
+                             const MeshSource& read, const DescriptionOptions& options) {
+    DescribedMesh described;
+    const TriMesh working = describe_surface(described, mesh, name, path, read, options);
+    StepClock clock(described.mesh);
+    cut_into_patches(described.mesh, working, options, clock);
+    return described;
+}
+
 }  // namespace
 
 std::vector<std::string> describe_steps(const DescriptionOptions& options) {
@@ -175,17 +187,23 @@ std::vector<std::string> describe_steps(const DescriptionOptions& options) {
 
 DescribedMesh describe_mesh(int mesh, const std::string& name, const std::string& path,
                             std::string_view bytes, const DescriptionOptions& options) {
-    DescribedMesh described;
-    const TriMesh working = describe_surface(described, mesh, name, path, bytes, options);
-    StepClock clock(described.mesh);
-    cut_into_patches(described.mesh, working, options, clock);
-    return described;
+    return describe_whole(
+        mesh, name, path, [&] { return parse_mesh(bytes, path); }, options);
 }
 
-DescribedMesh describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
-                                  const DescriptionOptions& options) {
+DescribedMesh describe_polygons(int mesh, const std::string& name, const std::string& path,
+                                const PolygonView& polygons, const DescriptionOptions& options) {
+    return describe_whole(
+        mesh, name, path, [&] { return checked_polygons(polygons, path); }, options);
+}
+
+DescribedMesh describe_mesh_faces(int mesh, const MeshEntry& entry, const DescriptionOptions& options) {
+    const MeshSource read = [&] {
+        if (entry.polygons != nullptr) return checked_polygons(*entry.polygons, entry.path);
+        return parse_mesh(mesh_file_bytes(entry.path), entry.path);
+    };
     DescribedMesh described;
-    describe_surface(described, mesh, name, path, mesh_file_bytes(path), options);
+    describe_surface(described, mesh, entry.name, entry.path, read, options);
     return described;
 }
 

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "io/mesh_files/mesh_list.hpp"
 #include "mpi_drivers/options/stage_options.hpp"
 #include "src/descriptors/descriptor_table.hpp"
 #include "src/mesh/dual_graph.hpp"
@@ -85,8 +86,11 @@ struct DescribedMesh {
 DescribedMesh describe_mesh(int mesh, const std::string& name, const std::string& path,
                             std::string_view bytes, const DescriptionOptions& options);
 
-/// The same from the file itself, without patches, neighbours and overlaps.
-DescribedMesh describe_mesh_faces(int mesh, const std::string& name, const std::string& path,
-                                  const DescriptionOptions& options);
+/// The same of polygons in memory, which messages call `path`.
+DescribedMesh describe_polygons(int mesh, const std::string& name, const std::string& path,
+                                const PolygonView& polygons, const DescriptionOptions& options);
+
+/// The same of a mesh of a collection, in a file or in memory, without patches, neighbours and overlaps.
+DescribedMesh describe_mesh_faces(int mesh, const MeshEntry& entry, const DescriptionOptions& options);
 
 }  // namespace coseg

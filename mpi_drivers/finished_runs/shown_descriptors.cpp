@@ -5,9 +5,6 @@
 
 namespace coseg {
 
-namespace {
-
-/// A face without a working face takes the value of its label donor, as it takes its label.
 std::vector<double> per_input_face(const FaceMap& map, const Eigen::VectorXd& values,
                                    const Eigen::VectorXd& areas) {
     const auto faces = static_cast<std::size_t>(map.input_faces);
@@ -29,8 +26,6 @@ std::vector<double> per_input_face(const FaceMap& map, const Eigen::VectorXd& va
     return means;
 }
 
-}  // namespace
-
 std::vector<std::vector<double>> shown_descriptors(const FinishedRun& run, const LabelledMesh& shape,
                                                    const std::vector<int>& chosen) {
     DescriptionOptions options;
@@ -40,7 +35,8 @@ std::vector<std::vector<double>> shown_descriptors(const FinishedRun& run, const
     options.patches = run.patches;
     options.geodesic_samples = run.geodesic_samples;
     options.descriptors = chosen;
-    const auto [mesh, descriptors] = describe_mesh_faces(shape.number, shape.name, shape.path, options);
+    const auto [mesh, descriptors] =
+        describe_mesh_faces(shape.number, {shape.name, shape.path, 0, nullptr}, options);
     std::vector<std::vector<double>> values;
     for (const FaceDescriptor& descriptor : descriptors)
         values.push_back(per_input_face(mesh.map, shown_values(descriptor), mesh.geometry.area));

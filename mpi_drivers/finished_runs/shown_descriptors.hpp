@@ -2,13 +2,21 @@
 // Computes the descriptors of a finished run's shapes again, as one number per face of the file, for pictures
 // and exports.
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "io/folders/finished_run.hpp"
 #include "mpi_drivers/finished_runs/finished_shapes.hpp"
 #include "src/descriptors/descriptor_table.hpp"
+#include "src/mesh/face_map.hpp"
 
 namespace coseg {
+
+/// One number per face of the file: the mean of `values`, one a working face, over the pieces into which the
+/// face was cut, weighted by their areas. A face without a piece takes the value of its label donor, as it
+/// takes its label.
+std::vector<double> per_input_face(const FaceMap& map, const Eigen::VectorXd& values,
+                                   const Eigen::VectorXd& areas);
 
 /// For each of the rows `chosen` of descriptor_table() (ascending) one number per face of the file: the mean
 /// of shown_values() over the pieces into which the face was cut, weighted by area. The values are those

@@ -6,6 +6,7 @@
 
 #include "io/mesh_files/mesh_format.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
+#include "mpi_drivers/options/named_options.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
 #include "mpi_drivers/options/weld_option.hpp"
 #include "src/descriptors/descriptor_table.hpp"

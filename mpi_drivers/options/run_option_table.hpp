@@ -64,7 +64,4 @@ class RunOptionTable {
     int ranks_ = 0;  // acted on before MPI starts, see self_launch.hpp; here for its check and its help
 };
 
-/// Every option of `coseg run` as `options` has it.
-std::vector<OptionValue> option_values(RunOptions options);
-
 }  // namespace coseg

@@ -185,6 +185,7 @@ struct ProcessOptions {
     bool quiet = false;
     bool verbose = false;
     bool json_log = false;
+    bool watches_signals = true;  ///< off where the process belongs to somebody else, see run_folders.hpp
 
     [[nodiscard]] Verbosity verbosity() const noexcept;
     [[nodiscard]] LogForm log_form() const noexcept { return json_log ? LogForm::json : LogForm::text; }

@@ -163,26 +163,75 @@ bool fits_together(const RunModel& model) {
            below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.partition.parts, 0)));
 }
 
-void write_patches(Hdf5Writer& file, const Collection& collection, const ModelPatches& patches,
-                   const std::vector<int>& part_of_patch) {
-    std::vector<std::int32_t> mesh_of;
-    std::vector<std::int32_t> parts;
+/// Those that a model's file keeps, and defaults elsewhere.
+RunOptions kept_options(const RunOptions& run) {
+    RunOptions options;
+    options.description = run.description;
+    options.features = run.features;
+    options.features.face_features.clear();
+    set_seed(options, run.description.seed);
+    options.partition.parts = run.partition.parts;
+    options.optimise.alpha = run.optimise.alpha;
+    options.optimise.beta = run.optimise.beta;
+    options.optimise.lambda = run.optimise.lambda;
+    options.optimise.gap = run.optimise.gap;
+    options.output.refine = run.output.refine;
+    return options;
+}
+
+/// The meshes of kept patches, in the order in which both a file and a model in memory have them.
+struct KeptPatchPlaces {
+    std::vector<int> mesh_of;
+    std::vector<int> parts;
     std::vector<std::string> names;
+};
+KeptPatchPlaces places_of(const Collection& collection, const ModelPatches& patches,
+                          const std::vector<int>& part_of_patch) {
+    KeptPatchPlaces places;
     for (const int mesh : patches.meshes) {
         const auto count = static_cast<std::size_t>(collection.numbering.count(mesh));
-        mesh_of.insert(mesh_of.end(), count, static_cast<std::int32_t>(names.size()));
-        names.push_back(collection.meshes[at(mesh)].name);
+        places.mesh_of.insert(places.mesh_of.end(), count, static_cast<int>(places.names.size()));
+        places.names.push_back(collection.meshes[at(mesh)].name);
     }
-    for (const int p : patches.columns) parts.push_back(part_of_patch[at(p)]);
+    for (const int p : patches.columns) places.parts.push_back(part_of_patch[at(p)]);
+    return places;
+}
+
+void write_patches(Hdf5Writer& file, const Collection& collection, const ModelPatches& patches,
+                   const std::vector<int>& part_of_patch) {
+    const KeptPatchPlaces places = places_of(collection, patches, part_of_patch);
     for (std::size_t h = 0; h < patches.histograms.size(); ++h) {
         write_float_matrix(file, "features/" + patches.descriptors[h].name, patches.histograms[h], true);
     }
-    file.write("mesh_of", mesh_of);
-    file.write("part_of_patch", parts);
-    file.write_texts("mesh_names", names);
+    file.write("mesh_of", places.mesh_of);
+    file.write("part_of_patch", places.parts);
+    file.write_texts("mesh_names", places.names);
+}
+
+int given_dimensions(const ModelPatches& patches) {
+    return patches.descriptors.empty() ? 0 : patches.descriptors.back().given_dimensions;
 }
 
 }  // namespace
+
+RunModel run_model(const Collection& collection, const ModelPatches& patches,
+                   const std::vector<int>& part_of_patch, const RunOptions& options) {
+    RunModel model;
+    model.options = kept_options(options);
+    for (const FeatureBins& bins : patches.bins) {
+        const auto* range = std::get_if<FeatureRange>(&bins);
+        model.bins.push_back(range == nullptr ? bins
+                                              : FeatureRange{RangeKind::global_percentile, range->edges});
+    }
+    for (const Eigen::MatrixXf& matrix : patches.histograms)
+        model.histograms.emplace_back(matrix.cast<double>());
+    model.face_feature_dimensions = given_dimensions(patches);
+    KeptPatchPlaces places = places_of(collection, patches, part_of_patch);
+    model.mesh_of = std::move(places.mesh_of);
+    model.part_of_patch = std::move(places.parts);
+    model.mesh_names = std::move(places.names);
+    return model;
+}
 
 ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed) {
     ModelPatches patches;

@@ -41,6 +41,10 @@ struct ModelPatches {
 };
 ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed);
 
+/// The model that read_run_model gives of what write_run_model writes of the same. Serial.
+RunModel run_model(const Collection& collection, const ModelPatches& patches,
+                   const std::vector<int>& part_of_patch, const RunOptions& options);
+
 /// Writes the model into the folder on rank 0; only there `patches` is needed. Collective; throws
 /// AgreedError(output).
 void write_run_model(const Comm& comm, const std::string& folder, const Collection& collection,

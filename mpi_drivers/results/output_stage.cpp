@@ -125,8 +125,7 @@ void write_meshes(const Comm& comm, const std::string& folder, const Collection&
     });
 }
 
-void write_run_report(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
-                      const StageLog& log) {
+std::string run_report(const Comm& comm, const RunOutcome& outcome, const StageLog& log) {
     const Eigen::MatrixXd part_areas = gather_part_areas(comm, outcome);
     const FeatureStrength strength = feature_strength(comm, outcome.optimisation.result.coefficients,
                                                       outcome.cut.part_of_patch, outcome.parts);
@@ -144,9 +143,7 @@ void write_run_report(const Comm& comm, const std::string& folder, const RunOutc
     report.set_aside = outcome.collection.set_aside;
     std::vector<std::pair<std::string, std::string>> options;
     for (const OptionValue& option : outcome.options) options.emplace_back(option.key, option.value);
-    agree(comm, [&] {
-        if (comm.is_root()) write_report(folder + "/report.json", library_versions(), options, report);
-    });
+    return comm.is_root() ? report_text(library_versions(), options, report) : std::string();
 }
 
 void write_affinity_picture(const Comm& comm, const std::string& folder, const RunOutcome& outcome) {

@@ -34,9 +34,8 @@ struct RunOutcome {
     std::optional<ReportState> state;
 };
 
-/// Writes report.json on rank 0. Collective; throws AgreedError(output).
-void write_run_report(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
-                      const StageLog& log);
+/// The text of report.json on rank 0. Collective.
+std::string run_report(const Comm& comm, const RunOutcome& outcome, const StageLog& log);
 
 /// Writes affinity.png: W permuted by part, finer than in the report. It is not written for an assignment,
 /// which has no coefficients of its own to draw. Collective; throws AgreedError(output).

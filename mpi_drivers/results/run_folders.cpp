@@ -23,6 +23,7 @@ void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::s
     const fs::path results = fs::weakly_canonical(fs::absolute(out), ignored);
     std::set<fs::path> seen;  // a collection has far fewer folders than meshes
     for (const MeshEntry& entry : entries) {
+        if (entry.polygons != nullptr) continue;
         const fs::path parent = fs::absolute(entry.path).parent_path();
         if (!seen.insert(parent).second) continue;
         for (const char* own : {"labels", "patches", "ply", "levels"}) {
@@ -35,12 +36,12 @@ void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::s
 
 }  // namespace
 
-ResultFolder::ResultFolder(const Comm& comm, const std::string& path, bool force) {
+ResultFolder::ResultFolder(const Comm& comm, const std::string& path, bool force, bool watched) {
     agree(comm, [&] {
         if (!comm.is_root()) return;
         const TerminationPause pause;
         on_root_.emplace(path, force);
-        watch_.emplace([this] { on_root_->abandon(); });
+        if (watched) watch_.emplace([this] { on_root_->abandon(); });
     });
     if (comm.is_root()) staging_ = on_root_->staging();
     broadcast(comm, staging_);
@@ -66,22 +67,27 @@ void ResultFolder::commit(const Comm& comm) {
 }
 
 RunFolders::RunFolders(const Comm& comm, const OutputOptions& output, const ProcessOptions& process)
-    : state_(opened_state(comm, process)),
-      results_path_(output.folder),
-      results_(comm, output.folder, output.force) {}
+    : state_(opened_state(comm, process)), results_path_(output.folder) {
+    if (!output.folder.empty()) results_.emplace(comm, output.folder, output.force, process.watches_signals);
+}
 
 void RunFolders::end_if_asked(const Comm& comm, const std::string& kept) const {
     if (state_) state_->end_if_asked(comm, kept);
 }
 
-std::vector<MeshEntry> RunFolders::list_meshes_outside(const Comm& comm,
-                                                       const std::vector<std::string>& inputs) const {
-    std::vector<MeshEntry> entries = list_meshes(comm, inputs);
+std::vector<MeshEntry> RunFolders::meshes_outside(const Comm& comm, const std::vector<MeshEntry>* given,
+                                                  const std::vector<std::string>& inputs) const {
+    std::vector<MeshEntry> entries = given != nullptr ? *given : list_meshes(comm, inputs);
+    if (!results_) return entries;
     agree(comm, [&] {
         if (comm.is_root()) refuse_input_in_results(entries, results_path_);
     });
-    results_.try_results_of(comm, entries);
+    results_->try_results_of(comm, entries);
     return entries;
+}
+
+void RunFolders::commit(const Comm& comm) {
+    if (results_) results_->commit(comm);
 }
 
 }  // namespace coseg

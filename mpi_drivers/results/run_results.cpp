@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "io/files/atomic_file.hpp"
 #include "io/reports/report_page.hpp"
 #include "mpi_drivers/results/level_output.hpp"
 #include "mpi_drivers/results/picture_stage.hpp"
@@ -36,8 +37,8 @@ std::optional<ReportState> state_summary(const Comm& comm, const RunState* state
     return summary;
 }
 
-void write_results(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
-                   const OutputOptions& options, StageLog& log) {
+std::string write_results(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
+                          const OutputOptions& options, StageLog& log) {
     log.begin("write");
     write_meshes(comm, folder, outcome.collection, outcome.labels);
     write_levels(comm, folder, outcome.collection, outcome.cut, outcome.labels);
@@ -48,13 +49,17 @@ void write_results(const Comm& comm, const std::string& folder, const RunOutcome
         write_affinity_picture(comm, folder, outcome);
         log.end(options.folder + "/contact_sheet.png");
     }
-    write_run_report(comm, folder, outcome, log);
+    std::string report = run_report(comm, outcome, log);
+    agree(comm, [&] {
+        if (comm.is_root()) write_file(folder + "/report.json", report);
+    });
     if (options.html && can_write_report_page()) {
         log.begin("page");
         write_html_report(comm, {folder, written_meshes(folder, outcome.collection), ""}, folder,
                           options.view);
         log.end(options.folder + "/report.html");
     }
+    return report;
 }
 
 }  // namespace coseg

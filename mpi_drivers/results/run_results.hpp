@@ -16,8 +16,9 @@ std::optional<ReportState> state_summary(const Comm& comm, const RunState* state
                                          const RunCheckpoints* checkpoints, const Collection& collection);
 
 /// Writes into `folder` the labels, the pictures, report.json and report.html, as far as `options` ask for
-/// them. The log has the stages "write", "picture" and "page". Collective; throws AgreedError.
-void write_results(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
-                   const OutputOptions& options, StageLog& log);
+/// them. The log has the stages "write", "picture" and "page". The text of report.json is returned on rank 0.
+/// Collective; throws AgreedError.
+std::string write_results(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
+                          const OutputOptions& options, StageLog& log);
 
 }  // namespace coseg

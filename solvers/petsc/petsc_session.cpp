@@ -58,16 +58,21 @@ void forget_options_of_environment() {
     unsetenv("PETSC_OPTIONS_YAML");
 }
 
-/// OpenBLAS divides products by its number of threads, which it takes from the number of cores that a rank
-/// may use.
-void hold_blas_to_one_thread() {
-    using SetThreads = void (*)(int);
-    if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"); symbol != nullptr) {
-        reinterpret_cast<SetThreads>(symbol)(1);
-    }
+}  // namespace
+
+int blas_threads() {
+    using ThreadCount = int (*)();
+    void* symbol = dlsym(RTLD_DEFAULT, "openblas_get_num_threads");
+    return symbol != nullptr ? reinterpret_cast<ThreadCount>(symbol)() : 0;
 }
 
-}  // namespace
+/// OpenBLAS divides products by its number of threads, which it takes from the number of cores that a rank
+/// may use.
+void set_blas_threads(int count) {
+    using SetThreads = void (*)(int);
+    if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"); symbol != nullptr && count > 0)
+        reinterpret_cast<SetThreads>(symbol)(count);
+}
 
 std::string unknown_petsc_option(const std::vector<std::string>& arguments) {
     bool value_may_follow = false;
@@ -92,6 +97,10 @@ PetscSession::PetscSession(const std::vector<std::string>& arguments)
                         "see 'EPS' in SLEPc's manual");
     }
     words_.insert(words_.end(), arguments.begin(), arguments.end());
+    PetscBool is_inner = PETSC_FALSE;
+    check(SlepcInitialized(&is_inner), "SlepcInitialized");
+    is_outermost_ = is_inner == PETSC_FALSE;
+    if (!is_outermost_) return;
     for (std::string& word : words_) pointers_.push_back(word.data());
     pointers_.push_back(nullptr);
     forget_options_of_environment();
@@ -99,11 +108,11 @@ PetscSession::PetscSession(const std::vector<std::string>& arguments)
     char** values = pointers_.data();
     check(SlepcInitialize(&count, &values, nullptr, nullptr), "SlepcInitialize");
     check(PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr), "PetscPushErrorHandler");
-    hold_blas_to_one_thread();
+    set_blas_threads(1);
 }
 
 PetscSession::~PetscSession() {
-    if (std::uncaught_exceptions() == 0) SlepcFinalize();
+    if (is_outermost_ && std::uncaught_exceptions() == 0) SlepcFinalize();
 }
 
 std::vector<std::string> unused_petsc_options() {

@@ -10,7 +10,9 @@ namespace coseg {
 /// PETSc's signal handlers and its printing of errors are off: errors reach the user through check() alone.
 /// BLAS is held to one thread per rank, so that results do not depend on how many cores a rank may see.
 /// What PETSc reads by itself, the file ~/.petscrc and the variable PETSC_OPTIONS, is ignored. Collective
-/// over MPI_COMM_WORLD.
+/// over PETSC_COMM_WORLD, which is MPI_COMM_WORLD unless the program has set another one.
+///
+/// Inside another session of the process it does nothing: the outer one stays as it is, and ends them.
 class PetscSession {
   public:
     /// `arguments` are the words that the user gave for PETSc and SLEPc, for example {"-eps_ncv", "80"}.
@@ -26,7 +28,13 @@ class PetscSession {
   private:
     std::vector<std::string> words_;  // PETSc keeps pointers to these
     std::vector<char*> pointers_;
+    bool is_outermost_ = true;
 };
+
+/// The number of threads that BLAS may use, or 0 where it cannot be told; and how to set it. A session sets
+/// it to 1 for the whole process.
+int blas_threads();
+void set_blas_threads(int count);
 
 /// The first of `arguments` that cannot be an option of the solvers in use, or "" if there is none. Options
 /// start with one of the prefixes of PETSc's and SLEPc's classes (-eps_, -st_, -bv_, -ds_, -mat_, -vec_,

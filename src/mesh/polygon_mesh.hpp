@@ -1,7 +1,8 @@
 #pragma once
-// A polygon mesh as it stands in a file: nothing triangulated, welded or repaired.
+// A polygon mesh as it stands in a file or in a caller's memory: nothing triangulated, welded or repaired.
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 namespace coseg {
@@ -17,6 +18,13 @@ struct PolygonMesh {
     [[nodiscard]] int face_count() const noexcept {
         return offsets.empty() ? 0 : static_cast<int>(offsets.size()) - 1;
     }
+};
+
+/// Polygons in the memory of a caller, who keeps it as long as they are used. Nothing is known of the values.
+struct PolygonView {
+    std::span<const double> coordinates;  ///< 3 V: x, y and z of each vertex
+    std::span<const int> corners;         ///< vertex numbers, one face after the other
+    std::span<const int> offsets;         ///< as in PolygonMesh; empty where every face is a triangle
 };
 
 }  // namespace coseg

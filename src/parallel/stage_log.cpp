@@ -30,6 +30,13 @@ std::string json_text(const std::string& text) {
 StageLog::StageLog(const Comm& comm, Verbosity verbosity, LogForm form)
     : comm_(comm), verbosity_(verbosity), form_(form), is_terminal_(isatty(STDERR_FILENO) != 0) {}
 
+StageLog::StageLog(const Comm& comm, StageListener listener)
+    : comm_(comm),
+      verbosity_(Verbosity::quiet),
+      form_(LogForm::text),
+      listener_(std::move(listener)),
+      is_terminal_(false) {}
+
 bool StageLog::shows_bar() const {
     return comm_.is_root() && is_terminal_ && verbosity_ != Verbosity::quiet && form_ == LogForm::text;
 }
@@ -39,6 +46,7 @@ void StageLog::begin(const std::string& stage) {
     stage_start_ = last_progress_ = Clock::now();
     own_seconds_ = -1.0;
     steps_.clear();
+    if (listener_.progress) listener_.progress(stage_, 0, 0);
     if (!shows_bar()) return;
     std::fprintf(stderr, "\r\033[K%-14s ...", stage_.c_str());
     std::fflush(stderr);
@@ -69,6 +77,7 @@ void StageLog::print_progress(std::int64_t done, std::int64_t total) {
 
 void StageLog::progress(std::int64_t done, std::int64_t total) {
     if (total <= 0) return;
+    if (listener_.progress) listener_.progress(stage_, done, total);
     if (!shows_bar()) return print_progress(done, total);
     constexpr int width = 30;
     const int filled = static_cast<int>(width * done / total);
@@ -133,6 +142,7 @@ void StageLog::end(const std::string& summary) {
         MPI_Allreduce(MPI_IN_PLACE, &step.seconds, 1, MPI_DOUBLE, MPI_SUM, comm_.raw());
     }
     stages_.push_back(times);
+    if (listener_.progress) listener_.progress(stage_, 1, 1);
     if (!comm_.is_root() || verbosity_ == Verbosity::quiet) return;
     clear_bar();
     print(times, summary);
@@ -158,6 +168,7 @@ void StageLog::print(const StageTimes& times, const std::string& summary) const 
 }
 
 void StageLog::warn(const std::string& sentence) const {
+    if (listener_.warning) return listener_.warning(sentence);
     if (!comm_.is_root()) return;
     if (form_ == LogForm::json)
         std::fprintf(stderr, "{\"event\": \"warning\", \"sentence\": %s}\n", json_text(sentence).c_str());

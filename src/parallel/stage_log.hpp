@@ -2,6 +2,7 @@
 // Measures the time of each stage: one line of progress on rank 0, and one row of the report's table.
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,16 @@ namespace coseg {
 enum class Verbosity { quiet, normal, verbose };
 enum class LogForm { text, json };
 
+/// What a program hears of a run that it has started through the library, in place of lines on standard
+/// error. Every rank is told.
+struct StageListener {
+    /// The stage, and how much is done of how much: 0 of 0 at its beginning, 1 of 1 at its end. What it
+    /// throws leaves the stage at once, which is only safe where there is no other rank that waits for this
+    /// one.
+    std::function<void(const std::string& stage, std::int64_t done, std::int64_t total)> progress;
+    std::function<void(const std::string& sentence)> warning;
+};
+
 /// Lines go to standard error, so that standard output holds results only.
 class StageLog {
   public:
@@ -22,6 +33,9 @@ class StageLog {
     /// With verbose, the steps of each stage are printed under its line. With json, there is one JSON object
     /// a line for every stage and warning, and no bar.
     StageLog(const Comm& comm, Verbosity verbosity, LogForm form = LogForm::text);
+
+    /// Nothing is printed.
+    StageLog(const Comm& comm, StageListener listener);
 
     void begin(const std::string& stage);
 
@@ -66,6 +80,7 @@ class StageLog {
     const Comm& comm_;
     Verbosity verbosity_;
     LogForm form_;
+    StageListener listener_;
     bool is_terminal_;
     bool bar_shown_ = false;
     std::string stage_;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The installed tree serves as a library (examples/two_meshes builds from it and runs) and as a Debian package.
+# The installed tree serves as a library (examples/two_meshes builds from it and runs) and as Debian packages.
 set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
@@ -11,21 +11,40 @@ done
 cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { tail "$work/log"; fail "cmake --install"; }
 [[ -s $work/prefix/share/man/man1/coseg.1 && -s $work/prefix/share/bash-completion/completions/coseg ]] || fail "help files"
 "$work/prefix/bin/coseg" --version | grep -q "^coseg " || fail "the installed program"
+# The interface is the one header, which includes nothing but the C++ library, and who links needs no command line.
+[[ $(cd "$work/prefix/include" && find . -type f) == ./coseg/coseg.hpp ]] || fail "headers: $(find "$work/prefix/include")"
+printf '#include <coseg/coseg.hpp>\n' | "${CXX:-c++}" -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only \
+    -I "$work/prefix/include" -x c++ - || fail "the header by itself"
+if grep -r -i -l "CLI11" "$work/prefix/lib"*/cmake "$work/prefix/lib"/*/cmake 2>/dev/null; then fail "the library asks for CLI11"; fi
+[[ -z $(find "$work/prefix" -name 'libcoseg_commands*') ]] || fail "the command line is installed as a library"
 cp -r "$COSEG_SOURCE/examples/two_meshes" "$work/example"
 cmake -S "$work/example" -B "$work/example/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release >"$work/log" 2>&1 ||
     { tail "$work/log"; fail "find_package(coseg)"; }
 cmake --build "$work/example/build" >"$work/log" 2>&1 || { tail "$work/log"; fail "building the example"; }
 peanut "$work/a.off" 0.5
 peanut "$work/b.off" 0.6
-(cd "$work" && example/build/two_meshes a.off b.off >out 2>err) || { cat "$work/err" >&2; fail "the example"; }
-[[ $(grep -c "mean shape diameter 0\." "$work/out") -eq 2 ]] || fail "the example prints $(cat "$work/out")"
-[[ $(wc -l <"$work/two_meshes_result/labels/b.seg") -eq 1104 ]] || fail "the example's labels"
+"$COSEG" run --quiet --parts 2 --patches 30 --no-sheet --no-html --out "$work/of_program" "$work/a.off" "$work/b.off"
+for count in 1 2; do
+    rm -f "$work/b.seg"
+    (cd "$work" && ranks "$count" example/build/two_meshes a.off b.off >out 2>err) || { cat "$work/err" >&2; fail "the example"; }
+    [[ $(grep -c "mean shape diameter 0\." "$work/out") -eq 2 ]] || fail "the example prints $(cat "$work/out")"
+    cmp "$work/b.seg" "$work/of_program/labels/b.seg" || fail "labels of the library and of the program, $count ranks"
+done
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n' >"$work/bad.off"
+refuses "a bad mesh ends the example, not MPI" 3 "bad.off:6: " ranks 2 "$work/example/build/two_meshes" "$work/a.off" "$work/bad.off"
 echo "ok: the library"
 
 for program in dpkg-deb cpack file; do # cpack asks file(1) which of the files are programs
     command -v "$program" >/dev/null || { echo "skipped in part: no $program"; exit 0; }
 done
 cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/pack" >"$work/log" 2>&1 || { tail "$work/log"; fail "cpack"; }
+for package in coseg libcoseg-dev; do
+    [[ -f $(echo "$work/pack/${package}"_*.deb) ]] || fail "cpack makes no $package, but $(ls "$work/pack")"
+done
+dpkg-deb --contents "$work"/pack/libcoseg-dev_*.deb >"$work/contents"
+grep -q "usr/include/coseg/coseg.hpp" "$work/contents" || fail "libcoseg-dev has no header"
+if grep -q "bin/coseg" "$work/contents"; then fail "libcoseg-dev has the program"; fi
+if dpkg-deb --contents "$work"/pack/coseg_*.deb | grep -E "\.a$|/include/|dist-packages"; then fail "coseg has more than the program"; fi
 dpkg-deb --info "$work"/pack/coseg_*.deb >"$work/info"
 grep -q "Depends: .*petsc" "$work/info" || fail "the package does not depend on PETSc: $(cat "$work/info")"
 dpkg-deb --extract "$work"/pack/coseg_*.deb "$work/root"

@@ -8,6 +8,7 @@
 #include "mpi_drivers/describe/description_file.hpp"
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 #include "mpi_drivers/optimise/solver_checkpoint_files.hpp"
+#include "mpi_drivers/options/named_options.hpp"
 #include "mpi_drivers/partition/partition_checkpoint.hpp"
 #include "src/base/index.hpp"
 

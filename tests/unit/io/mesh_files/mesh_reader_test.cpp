@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -395,6 +396,47 @@ TEST(MeshReader, RealMeshesHaveTheCountsOfTheirHeaders) {
         file >> edges >> x;
         EXPECT_EQ(mesh.vertices[0].x(), x) << meshes[i];
     }
+}
+
+const std::vector<double> square = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+TEST(CheckedPolygons, AreThoseThatAreGiven) {
+    const std::vector<int> corners = {0, 1, 2, 3, 0, 2, 2};
+    const std::vector<int> offsets = {0, 4, 4, 7};
+    const ParsedMesh parsed = checked_polygons({square, corners, offsets}, "shape 0");
+    EXPECT_EQ(parsed.mesh.offsets, offsets);
+    EXPECT_EQ(parsed.mesh.corners, corners);
+    EXPECT_EQ(parsed.mesh.vertices[2], Eigen::Vector3d(1, 1, 0));
+    EXPECT_TRUE(parsed.warnings.empty());
+    const std::vector<int> triangles = {0, 1, 2, 0, 2, 3};
+    EXPECT_EQ(checked_polygons({square, triangles, {}}, "").mesh.offsets, (std::vector<int>{0, 3, 6}));
+}
+
+TEST(CheckedPolygons, UnusableVerticesMayBeThereWithoutAFace) {
+    std::vector<double> vertices = square;
+    vertices.insert(vertices.begin(), {NAN, 0, 0});
+    const std::vector<int> corners = {1, 2, 3};
+    const ParsedMesh parsed = checked_polygons({vertices, corners, {}}, "shape 0");
+    EXPECT_EQ(parsed.mesh.vertex_count(), 4);
+    EXPECT_EQ(parsed.mesh.corners, (std::vector<int>{0, 1, 2}));
+    ASSERT_EQ(parsed.warnings.size(), 1U);
+    const std::vector<int> used = {1, 2, 3, 0, 1, 2};
+    const test::Caught caught = test::error_of([&] { checked_polygons({vertices, used, {}}, "shape 0"); });
+    EXPECT_EQ(caught.sentence.find("shape 0: vertex 0"), 0U) << caught.sentence;
+}
+
+TEST(CheckedPolygons, RefuseWhatIsNoMesh) {
+    const auto sentence = [](const std::vector<int>& corners, const std::vector<int>& offsets) {
+        return test::error_of([&] { checked_polygons({square, corners, offsets}, "shape 5"); }).sentence;
+    };
+    EXPECT_EQ(sentence({0, 1, 2, 0, 2, 4}, {}).find("shape 5: face 1 refers to vertex 4, but there are 4"),
+              0U);
+    EXPECT_EQ(sentence({0, 1, -1}, {}).find("shape 5: face 0 refers to vertex -1"), 0U);
+    EXPECT_NE(sentence({0, 1, 2, 3}, {}).find("without offsets"), std::string::npos);
+    for (const std::vector<int>& offsets : {std::vector<int>{0, 3}, {1, 4}, {0, 3, 2, 4}, {0, 5}})
+        EXPECT_NE(sentence({0, 1, 2, 3}, offsets).find("offsets"), std::string::npos);
+    EXPECT_NE(sentence({}, {}).find("no faces"), std::string::npos);
+    EXPECT_NE(sentence({0, 1, 1}, {}).find("no area"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,289 @@
+#pragma once
+// The interface of coseg for other programs: everything that is declared here, and nothing else of the
+// sources, is kept from one version to the next.
+//
+//     std::vector<coseg::Shape> shapes = {coseg::shape_of("a.off"), coseg::shape_of(mesh_in_memory)};
+//     const coseg::Segmentation result = coseg::segment(shapes, {.parts = 4});
+//     result.shapes[1].labels  // the part of every face of mesh_in_memory, 0 .. 3
+//
+// Rules for all functions
+// - Every failure is an exception of type Failure, with one sentence for the user and the exit code that the
+//   program would end with. Nothing is printed and no process is ended. Signals are left alone, except by
+//   segment() and assign() with a folder for their state.
+// - Shapes are used while a function runs and not after it. Their memory belongs to the caller.
+// - Results are in the order of the shapes that were given. The same shapes, names, options and seed give the
+//   same bytes: in every call, on any number of ranks, and as `coseg run` gives them for files so named.
+// - MPI is initialised by the first call that needs it, unless the program has done so, and is then finalised
+//   when the program ends. Functions that take a Call are collective over its communicator: every rank calls
+//   them with the same arguments, and every rank has the whole result. Without a communicator the calling
+//   process works alone, also where it is one of many.
+// - At most one call is at work in a process at a time; a second one throws.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Goes up with every change after which programs that were written for an earlier one must be changed.
+#define COSEG_INTERFACE_VERSION 1
+/// What others may see of a library in which this one is contained.
+#define COSEG_VISIBLE __attribute__((visibility("default")))
+
+namespace coseg {
+inline namespace interface_1 {
+
+/// The version of the library, as "0.1.0".
+COSEG_VISIBLE std::string version();
+
+/// A sentence that names the shape, face, file or option and says what to do, and one of these codes:
+/// 1 internal, 2 usage (an option, an argument), 3 input (a mesh, a matrix), 4 output (a folder that cannot
+/// be written), 5 no convergence, 75 ended by a signal with its state written.
+class COSEG_VISIBLE Failure : public std::runtime_error {
+  public:
+    Failure(int code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+    [[nodiscard]] int code() const noexcept { return code_; }
+
+  private:
+    int code_;
+};
+
+// ---- Shapes ----
+
+/// A mesh in memory. Nothing is required of its geometry: polygons, seams, non-manifold edges and degenerate
+/// faces are repaired inside the program, and every face keeps its place.
+struct Mesh {
+    std::vector<double> vertices;  ///< 3 V: x, y and z of each vertex, in any unit
+    std::vector<int> corners;      ///< vertex numbers from 0, one face after the other
+    std::vector<int> offsets;      ///< F + 1: face f is corners[offsets[f]] .. corners[offsets[f + 1] - 1]
+};
+
+/// A shape of a collection: a mesh file, or a mesh in the memory of the caller.
+struct Shape {
+    /// What all randomness of the shape is drawn by, and the name of its files. Unique in a collection,
+    /// without '/'. Empty: the file's name without folder and suffix; of the mesh with index 7 "shape_0007".
+    std::string name;
+    std::string path;                  ///< of a mesh file; empty: the arrays below hold the mesh
+    std::span<const double> vertices;  ///< as in Mesh
+    std::span<const int> corners;      ///< likewise
+    std::span<const int> offsets;      ///< likewise; empty where every face is a triangle
+};
+
+/// A shape that refers to `mesh`, which must outlive it.
+COSEG_VISIBLE Shape shape_of(const Mesh& mesh, const std::string& name = "");
+COSEG_VISIBLE Shape shape_of(const std::string& path);
+
+/// The mesh of a file in a format that `coseg run` reads, with as many faces as the file has, in its order.
+/// Not collective. Failure: 3.
+COSEG_VISIBLE Mesh load_mesh(const std::string& path);
+
+/// The mesh files that are meant by files, folders and @LISTs, sorted by name, as `coseg run` takes them. Not
+/// collective. Failure: 3.
+COSEG_VISIBLE std::vector<std::string> mesh_files(const std::vector<std::string>& arguments);
+
+/// A shape with known parts, as `coseg generate` makes them.
+struct GeneratedShape {
+    std::string name;         ///< table_0002
+    Mesh mesh;                ///< closed triangles, about one unit in size, z up
+    std::vector<int> labels;  ///< F: the true label of each face
+};
+
+/// The shapes 0 .. count - 1 of the endless collection that a family (`coseg generate list`) and a seed give,
+/// each with about so many faces (500 .. 200000). Not collective. Failure: 2.
+COSEG_VISIBLE std::vector<GeneratedShape> generate(const std::string& family, int count,
+                                                   std::uint64_t seed = 1, int faces = 5000);
+
+// ---- Calls ----
+
+struct Progress {
+    std::string stage;       ///< "describe", "features", "optimise", "cut", "label" ...
+    std::int64_t done = 0;   ///< of total; a stage begins with 0 of 0 and ends with 1 of 1
+    std::int64_t total = 0;  ///< meshes, or columns of the optimiser
+};
+
+/// How a function runs. Nothing that it computes depends on it.
+struct Call {
+    /// The address of an MPI_Comm; null: this process alone.
+    const void* communicator = nullptr;
+    /// Called on every rank, in the thread of the caller. What it throws ends the call and is thrown by it:
+    /// at once where one process works, at the end of the call where several do.
+    std::function<void(const Progress&)> progress;
+};
+
+/// An option of `coseg run` by its name without dashes, and its value as on the command line, such as
+/// {"patches", "30"}; "true" or "false" for a switch. `coseg run --help-all` lists them.
+using Option = std::pair<std::string, std::string>;
+
+/// Initialises MPI, unless that is done, as the first call would. Failure: 2 where MPI has been finalised.
+COSEG_VISIBLE void start();
+
+/// The names of the options that the functions below take.
+COSEG_VISIBLE std::vector<std::string> option_names();
+
+// ---- Segmentation ----
+
+/// The labels of one shape.
+struct ShapeLabels {
+    std::string name;
+    std::vector<int> labels;         ///< F: the part of each face, 0 .. parts - 1; empty if set aside
+    std::vector<int> patches;        ///< F: the patch of each face in the first over-segmentation, from 0
+    std::vector<double> part_areas;  ///< parts: shares of the shape's area, summing to 1
+    std::vector<std::string> warnings;
+    std::string set_aside;  ///< why the shape could not be used; empty if it was
+};
+
+/// How far the coefficients of the subspace problem are from the optimum. docs/method.md gives the problem.
+struct Certificate {
+    double objective = 0.0;
+    double lower_bound = 0.0;   ///< proven; no coefficients have a smaller objective
+    double relative_gap = 0.0;  ///< (objective - lower bound) / objective
+    bool reached = false;       ///< whether the gap that was asked for was reached
+    std::string reason;         ///< gap_reached, residual_reached, iteration_limit or time_limit
+    std::int64_t iterations = 0;
+    std::int64_t nonzero_pairs = 0;  ///< pairs of patches with a coefficient
+};
+
+/// What is needed to label more shapes like those of a run.
+class Model;
+
+struct Segmentation {
+    int parts = 0;
+    std::vector<ShapeLabels> shapes;  ///< in the order of the shapes that were given
+    Certificate certificate;
+    std::vector<std::string> warnings;   ///< of the whole call, one sentence each
+    std::string report;                  ///< JSON, as in report.json (docs/formats.md)
+    std::shared_ptr<const Model> model;  ///< of segment() alone, where SegmentOptions::keep_model is set
+};
+
+struct SegmentOptions {
+    int parts = 0;                ///< K, 1 .. 1000
+    std::vector<Option> options;  ///< see option_names()
+    bool strict = true;           ///< a shape that cannot be used ends the call; otherwise it is set aside
+    bool keep_model = true;
+    std::string folder;    ///< where results are written as `coseg run --out` does; empty: nowhere
+    bool replace = false;  ///< earlier results in the folder are replaced, as by --force
+    /// A folder that keeps what is computed, as of --state; empty: none. With one, SIGUSR1 and SIGTERM end
+    /// the call with code 75 and the state written.
+    std::string state;
+};
+
+/// Cuts shapes into the same parts: the same number means the same part in every shape. Collective. Failure:
+/// 2 an option or the number of parts, 3 a shape that cannot be used (its index, counted from 0, and its face
+/// are named), fewer patches than parts, 4 the folder. Where a limit ends the optimiser before its gap, the
+/// result is given all the same, with certificate.reached = false.
+COSEG_VISIBLE Segmentation segment(std::span<const Shape> shapes, const SegmentOptions& options,
+                                   const Call& call = {});
+
+/// The model that a run of the program left in its folder. Collective. Failure: 3.
+COSEG_VISIBLE std::shared_ptr<const Model> load_model(const std::string& folder, const Call& call = {});
+
+struct AssignOptions {
+    bool strict = true;
+    std::string folder;
+    bool replace = false;
+    std::string state = "";
+};
+
+/// Labels new shapes like those of the run that left the model, without solving it again. Collective.
+/// Failure as of segment().
+COSEG_VISIBLE Segmentation assign(std::span<const Shape> shapes, const std::shared_ptr<const Model>& model,
+                                  const AssignOptions& options = {}, const Call& call = {});
+
+// ---- Descriptors ----
+
+/// Values of the faces of one shape.
+struct NamedFaceValues {
+    std::string name;            ///< of the descriptor: shape_diameter ...
+    int dimensions = 1;          ///< d: values a face
+    std::vector<double> values;  ///< F x d, face by face
+};
+
+struct ShapeDescription {
+    std::string name;
+    std::vector<double> areas;  ///< F: of each face, in the square of the mesh's unit
+    std::vector<NamedFaceValues> descriptors;
+};
+
+/// The descriptors of every face, free of scale (in the unit in which the shape's area is 1), before patches
+/// average them. Where a face was cut into pieces inside the program, the value is the mean of the pieces
+/// weighted by area; a face without area has that of the face from which it would take its label. `options`
+/// as of segment(); the descriptors are those with a positive weight by default or in "feature-weights".
+/// Collective. Failure: 2, 3.
+COSEG_VISIBLE std::vector<ShapeDescription> describe(std::span<const Shape> shapes,
+                                                     const std::vector<Option>& options = {},
+                                                     const Call& call = {});
+
+// ---- Scores ----
+
+/// Shares in [0, 1].
+struct ScoredShape {
+    double accuracy = 0.0;     ///< area of faces whose part stands for their true label
+    double many_to_one = 0.0;  ///< the same if each part takes the label that covers most of its area
+    double rand_index = 0.0;   ///< by area
+};
+
+struct Score {
+    double accuracy = 0.0;     ///< mean over shapes, with one assignment of parts to labels for all of them
+    double many_to_one = 0.0;  ///< likewise
+    double one_part = 0.0;     ///< the accuracy of one single part for everything: the figure to beat
+    double rand_index = 0.0;
+    std::vector<ScoredShape> shapes;
+};
+
+/// Compares labels with the truth, as `coseg score` does. labels, truth: for each shape F numbers; the two
+/// numberings are independent of each other, and negative truth never counts as right. Empty labels score 0.
+/// Not collective. Failure: 3 where numbers of shapes or faces differ.
+COSEG_VISIBLE Score score(std::span<const Shape> shapes, const std::vector<std::vector<int>>& labels,
+                          const std::vector<std::vector<int>>& truth);
+
+// ---- Matrices ----
+
+/// One feature of N items: item by item d values, all >= 0 and finite, and not all 0.
+struct FeatureMatrix {
+    std::span<const double> values;  ///< N x d
+    int dimensions = 0;              ///< d
+};
+
+struct ClusterSettings {
+    int parts = 0;            ///< K, 1 .. N
+    std::vector<int> groups;  ///< N, from 0, or empty: items of one group are not linked to each other
+    bool unit_items = false;  ///< every item of every feature is scaled to norm 1 first
+    double alpha = 0.01;      ///< weight of the l2,1 penalty: consistency over the features; >= 0
+    double beta = 0.1;        ///< weight of the l1 penalty: sparseness; >= 0
+    double lambda = 1.0;      ///< weight of the squared sums; >= 0
+    std::string variant = "multi-feature";  ///< as of `coseg cluster --variant`
+    std::string scope = "auto";             ///< auto, rows or meshes (groups)
+    std::string affinity = "formula-8";     ///< formula-8 or links
+    int links = 0;           ///< other groups in which an item may have matches; 0: all, else at least 2
+    std::uint64_t seed = 1;  ///< of the sample of links
+    double gap = 1e-4;       ///< relative duality gap at which the optimiser stops
+    int max_iterations = 10000;
+    double max_seconds = 3600.0;
+};
+
+/// A sparse N x N matrix, compressed by rows or by columns as its owner says.
+struct SparseMatrix {
+    std::int64_t size = 0;              ///< N
+    std::vector<std::int64_t> offsets;  ///< N + 1
+    std::vector<int> indices;
+    std::vector<double> values;
+};
+
+struct Clusters {
+    std::vector<int> labels;  ///< N, 0 .. parts - 1
+    Certificate certificate;
+    std::string report;                      ///< JSON: the certificate with the sizes of the problem
+    std::vector<SparseMatrix> coefficients;  ///< W of each feature, by columns: item j is made of the rows
+    SparseMatrix affinity;                   ///< symmetric, as it is cut; by rows
+};
+
+/// Multi-view subspace clustering of any data, as `coseg cluster` does it. Collective. Failure: 2, 3 (feature
+/// and item are named, both counted from 1).
+COSEG_VISIBLE Clusters cluster(const std::vector<FeatureMatrix>& features, const ClusterSettings& settings,
+                               const Call& call = {});
+
+}  // namespace interface_1
+}  // namespace coseg

@@ -1,0 +1,117 @@
+#include "mpi_drivers/interface/library_call.hpp"
+
+#include <mpi.h>
+#include <petscsys.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "solvers/petsc/petsc_session.hpp"
+#include "src/base/error.hpp"
+
+namespace coseg {
+
+namespace {
+
+std::atomic_flag at_work = ATOMIC_FLAG_INIT;
+
+/// Ends a call of one process whose caller has thrown; LibraryCall knows what.
+struct StoppedByCaller : std::exception {};
+
+bool mpi_is_finalized() {
+    int flag = 0;
+    MPI_Finalized(&flag);
+    return flag != 0;
+}
+
+void end_mpi() {
+    if (!mpi_is_finalized()) MPI_Finalize();
+}
+
+void start_mpi() {
+    int is_started = 0;
+    MPI_Initialized(&is_started);
+    if (mpi_is_finalized())
+        throw Error(ExitCode::usage, "MPI has been finalised in this process; call coseg before that");
+    if (is_started != 0) return;
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+    std::atexit(end_mpi);
+}
+
+/// Ends PETSc before whoever has started MPI ends that: after it, PETSc must be left as it is.
+PetscSession* session_of_process = nullptr;
+void end_petsc() {
+    if (!mpi_is_finalized()) delete session_of_process;
+}
+
+/// Between PetscInitialize and PetscFinalize objects may be made on any communicator; the two themselves are
+/// collective over PETSC_COMM_WORLD, which is why that is this process alone.
+void start_petsc() {
+    if (session_of_process != nullptr) return;
+    PetscBool is_started = PETSC_FALSE;
+    PetscInitialized(&is_started);
+    if (is_started == PETSC_FALSE) PETSC_COMM_WORLD = MPI_COMM_SELF;
+    session_of_process = std::make_unique<PetscSession>(std::vector<std::string>{}).release();
+    std::atexit(end_petsc);
+}
+
+}  // namespace
+
+LibraryCall::Turn::Turn() {
+    if (at_work.test_and_set())
+        throw Error(ExitCode::usage,
+                    "another call of coseg is at work in this process; wait until it has returned");
+}
+
+LibraryCall::Turn::~Turn() { at_work.clear(); }
+
+LibraryCall::LibraryCall(const Call& call) {
+    start_mpi();
+    comm_.emplace(call.communicator != nullptr ? *static_cast<const MPI_Comm*>(call.communicator)
+                                               : MPI_COMM_SELF);
+    blas_threads_before_ = blas_threads();
+    start_petsc();
+    set_blas_threads(1);
+    StageListener listener;
+    listener.progress = [this, &call](const std::string& stage, std::int64_t done, std::int64_t total) {
+        tell(call, {stage, done, total});
+    };
+    listener.warning = [this](const std::string& sentence) { warnings_.push_back(sentence); };
+    log_.emplace(*comm_, std::move(listener));
+}
+
+LibraryCall::~LibraryCall() { set_blas_threads(blas_threads_before_); }
+
+void LibraryCall::tell(const Call& call, const Progress& progress) {
+    if (!call.progress || thrown_) return;
+    try {
+        call.progress(progress);
+    } catch (...) {
+        thrown_ = std::current_exception();
+    }
+    // Other ranks would wait for one that leaves.
+    if (thrown_ && comm().size() == 1) throw StoppedByCaller{};
+}
+
+void interface_1::start() {
+    try {
+        start_mpi();
+    } catch (...) {
+        throw_failure();
+    }
+}
+
+void throw_failure() {
+    try {
+        throw;
+    } catch (const Error& error) {
+        throw Failure(static_cast<int>(error.code()), error.what());
+    } catch (const std::bad_alloc&) {
+        throw Failure(static_cast<int>(ExitCode::internal), "out of memory; give fewer or coarser shapes");
+    }
+}
+
+}  // namespace coseg

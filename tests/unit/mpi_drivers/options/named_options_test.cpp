@@ -1,0 +1,74 @@
+#include "mpi_drivers/options/named_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/errors.hpp"
+
+namespace coseg {
+namespace {
+
+TEST(NamedOptions, ValuesAreThoseOfTheCommandLine) {
+    const RunOptions options = options_by_name({{"patches", "31"},
+                                                {"choose", "false"},
+                                                {"seed", "7"},
+                                                {"feature-weights", "1,0,2"},
+                                                {"scope", "rows"},
+                                                {"lambda", "0.25"}});
+    EXPECT_EQ(options.description.patches, 31);
+    EXPECT_FALSE(options.partition.choose);
+    EXPECT_EQ(options.description.seed, 7U);
+    EXPECT_EQ(options.partition.seed, 7U);
+    EXPECT_EQ(options.features.weights[1], 0.0);
+    EXPECT_EQ(options.features.weights[2], 2.0);
+    EXPECT_EQ(options.features.weights[3], default_descriptor_weights()[3]);
+    EXPECT_EQ(options.optimise.scope, PenaltyScope::rows);
+    EXPECT_EQ(options.optimise.lambda, 0.25);
+    EXPECT_TRUE(options.output.folder.empty());
+    EXPECT_TRUE(options.process.inputs.empty());
+}
+
+TEST(NamedOptions, APresetGivesWayToWhatIsGiven) {
+    const RunOptions options = options_by_name({{"alpha", "3"}, {"preset", "paper"}});
+    EXPECT_EQ(options.preset, "paper");
+    EXPECT_EQ(options.description.oversegmentations, 1);
+    EXPECT_EQ(options.optimise.alpha, 3.0);
+}
+
+TEST(NamedOptions, WithoutAnyTheyAreTheDefaults) {
+    const std::vector<OptionValue> given = option_values(options_by_name({}));
+    const std::vector<OptionValue> standard = option_values({});
+    ASSERT_EQ(given.size(), standard.size());
+    for (std::size_t k = 0; k < given.size(); ++k) {
+        if (given[k].key != "parts") EXPECT_EQ(given[k].value, standard[k].value) << given[k].key;
+    }
+}
+
+TEST(NamedOptions, WhatIsWrongIsRefused) {
+    const auto sentence = [](const NamedOption& option) {
+        const test::Caught caught = test::error_of([&] { options_by_name({option}); });
+        EXPECT_EQ(caught.code, ExitCode::usage) << option.first;
+        return caught.sentence;
+    };
+    EXPECT_NE(sentence({"patchs", "3"}).find("did you mean 'patches'"), std::string::npos);
+    EXPECT_NE(sentence({"patches", "1"}).find("--patches"), std::string::npos);
+    EXPECT_NE(sentence({"patches", "many"}).find("--patches"), std::string::npos);
+    EXPECT_NE(sentence({"alpha", "nan"}).find("finite"), std::string::npos);
+    EXPECT_NE(sentence({"scope", "columns"}).find("columns"), std::string::npos);
+    EXPECT_NE(sentence({"out", "here"}).find("'out' is no option"), std::string::npos);
+    EXPECT_NE(sentence({"--patches", "3"}).find("is no option"), std::string::npos);
+}
+
+TEST(NamedOptions, NamesLeaveOutTheCommandLineOnes) {
+    const std::vector<std::string> names = named_option_names();
+    const auto has = [&](const char* name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    EXPECT_TRUE(has("geodesic-samples"));
+    EXPECT_TRUE(has("preset"));
+    for (const char* name : {"out", "state", "quiet", "config", "parts"}) EXPECT_FALSE(has(name)) << name;
+}
+
+}  // namespace
+}  // namespace coseg
