@@ -15,9 +15,13 @@ coseg_packages=(
     libcli11-dev nlohmann-json3-dev
 )
 
+# To build the Python module, which is left out where they are missing.
+coseg_python_packages=(pybind11-dev python3-dev python3-numpy)
+
 # To build and run the tests as well.
 coseg_test_packages=(
     libgtest-dev python3 clang-format clang-tidy shellcheck procps file
+    python3-pytest python3-scipy python3-matplotlib # for the Python module's tests
     slurm-wlm munge # for slurm_test.sh, which starts daemons of its own; the packages' own stay off without a slurm.conf
 )
 

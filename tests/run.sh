@@ -45,7 +45,7 @@ with_sanitizers() {
 }
 
 mkdir -p "$build"
-install_missing "$build/install.log" "${coseg_packages[@]}" "${coseg_test_packages[@]}"
+install_missing "$build/install.log" "${coseg_packages[@]}" "${coseg_python_packages[@]}" "${coseg_test_packages[@]}"
 configure "${options[@]}"
 echo "building the program and its tests in $build"
 build_target all

@@ -45,6 +45,17 @@ dpkg-deb --contents "$work"/pack/libcoseg-dev_*.deb >"$work/contents"
 grep -q "usr/include/coseg/coseg.hpp" "$work/contents" || fail "libcoseg-dev has no header"
 if grep -q "bin/coseg" "$work/contents"; then fail "libcoseg-dev has the program"; fi
 if dpkg-deb --contents "$work"/pack/coseg_*.deb | grep -E "\.a$|/include/|dist-packages"; then fail "coseg has more than the program"; fi
+if compgen -G "$build/python/coseg/_core*.so" >/dev/null; then
+    dpkg-deb --contents "$work"/pack/python3-coseg_*.deb >"$work/contents"
+    for file in "coseg/_core.*\.so" "coseg/__init__.py" "coseg/py.typed"; do
+        grep -q "usr/lib/python3/dist-packages/$file" "$work/contents" || fail "python3-coseg has no $file"
+    done
+    dpkg-deb --info "$work"/pack/python3-coseg_*.deb | grep -q "Depends: .*python3-numpy" || fail "python3-coseg needs no NumPy"
+    dpkg-deb --extract "$work"/pack/python3-coseg_*.deb "$work/python"
+    PYTHONPATH=$work/python/usr/lib/python3/dist-packages /usr/bin/python3 -c \
+        "import coseg; assert len(coseg.generate('table', 1)[0].faces) > 4000" || fail "the packaged module"
+    echo "ok: the package for Python"
+fi
 dpkg-deb --info "$work"/pack/coseg_*.deb >"$work/info"
 grep -q "Depends: .*petsc" "$work/info" || fail "the package does not depend on PETSc: $(cat "$work/info")"
 dpkg-deb --extract "$work"/pack/coseg_*.deb "$work/root"

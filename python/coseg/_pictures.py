@@ -1,0 +1,63 @@
+"""A picture of labelled shapes, for notebooks; it needs matplotlib."""
+
+from __future__ import annotations
+
+from typing import Any, Iterable, Union
+
+import numpy as np
+
+from ._segmentation import Result
+from ._shapes import MeshesLike, given_shapes
+
+
+def _triangles(vertices: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> tuple:
+    """Corner positions (T, 3, 3) of the fans of all faces, and the face of each triangle."""
+    if not len(offsets):
+        triangles = corners.reshape(-1, 3)
+        return vertices[triangles], np.arange(len(triangles))
+    fans = [(corners[a], corners[k], corners[k + 1], face)
+            for face, (a, b) in enumerate(zip(offsets[:-1], offsets[1:])) for k in range(a + 1, b - 1)]
+    rows = np.array(fans, dtype=np.intp).reshape(-1, 4)
+    return vertices[rows[:, :3]], rows[:, 3]
+
+
+def draw(meshes: MeshesLike, labels: Union[Result, Iterable[Any]], *, columns: int = 6, up: str = "z",
+         size: float = 2.0) -> Any:
+    """A matplotlib figure with every shape in its parts' colours, the same part in the same colour everywhere.
+
+    Args:
+        meshes, labels: as in score().
+        columns: shapes a row.
+        up: the axis that points up: "x", "y" or "z".
+        size: of one picture, in inches.
+    """
+    from matplotlib import colormaps
+    from matplotlib.figure import Figure
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    from . import load_mesh
+    rows = list(labels.labels if isinstance(labels, Result) else labels)
+    shapes = given_shapes(meshes)
+    lines = -(-len(shapes) // columns)
+    figure = Figure(figsize=(size * min(columns, len(shapes)), size * lines), dpi=100, layout="constrained")
+    light = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
+    # The ten strong colours first, then the ten pale ones.
+    palette = colormaps["tab20"](np.r_[0:20:2, 1:20:2])[:, :3]
+    order = {"x": [1, 2, 0], "y": [2, 0, 1], "z": [0, 1, 2]}[up]
+    for k, ((_, path, vertices, corners, offsets), part) in enumerate(zip(shapes, rows), 1):
+        if path:
+            vertices, corners, offsets = load_mesh(path).arrays()
+        points, face = _triangles(np.asarray(vertices).reshape(-1, 3)[:, order], corners, offsets)
+        normal = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+        color = (np.full((len(points), 3), 0.7) if part is None
+                 else palette[np.asarray(part)[face] % 20])
+        color = color * (0.6 + 0.4 * np.abs(normal @ light))[:, None]
+        axes = figure.add_subplot(lines, min(columns, len(shapes)), k, projection="3d")
+        axes.add_collection3d(Poly3DCollection(points, facecolors=color, edgecolors="none"))
+        low, high = points.min((0, 1)), points.max((0, 1))
+        half = (high - low).max() / 2
+        for set_limits, middle in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), (low + high) / 2):
+            set_limits(middle - half, middle + half)
+        axes.set_axis_off()
+    return figure

@@ -1,0 +1,178 @@
+"""Makes what the extension takes of what users give: shapes, labels, options and communicators."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _core
+from ._errors import InputError, UsageError, translated
+
+#: A mesh file, or a mesh in memory: (vertices, faces), or an object with these attributes such as trimesh's.
+#: vertices: (V, 3) numbers in any unit. faces: (F, k) vertex numbers from 0, k at least 3, or F sequences of
+#: them of different lengths.
+MeshLike = Union[str, "os.PathLike[str]", Tuple[Any, Any], Any]
+
+#: A list of meshes, or a folder, file or "@LIST" that stands for the mesh files in it, sorted by name.
+MeshesLike = Union[str, "os.PathLike[str]", Iterable[MeshLike]]
+
+_NO_DOUBLES = np.empty(0, dtype=np.float64)
+_NO_INTS = np.empty(0, dtype=np.intc)
+_INT = np.iinfo(np.intc)
+
+
+def _is_path(value: Any) -> bool:
+    return isinstance(value, (str, os.PathLike))
+
+
+def path_bytes(path: Any) -> bytes:
+    """A path as the extension takes it: names of files need not be UTF-8."""
+    return os.fsencode(path)
+
+
+def _vertices(shape: str, given: Any) -> np.ndarray:
+    try:
+        vertices = np.asarray(given)
+    except ValueError as error:
+        raise InputError(f"{shape}: the vertices are no array: {error}") from None
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise InputError(f"{shape}: the vertices have the shape {vertices.shape}, not (V, 3)")
+    if vertices.dtype.kind not in "fiu":
+        raise InputError(f"{shape}: the vertices are of type {vertices.dtype}, not numbers")
+    return np.ascontiguousarray(vertices, dtype=np.float64)
+
+
+def _corners(shape: str, faces: np.ndarray, vertex_count: int, face_of: Any) -> np.ndarray:
+    """As C's int. What that does not hold is refused here, other numbers by the program."""
+    if faces.size and faces.dtype.kind not in "iu":
+        raise InputError(f"{shape}: the faces are of type {faces.dtype}, not whole numbers")
+    if faces.size and faces.dtype.itemsize >= np.dtype(np.intc).itemsize and (
+            int(faces.max()) > _INT.max or int(faces.min()) < _INT.min):
+        bad = int(np.flatnonzero((faces > _INT.max) | (faces < _INT.min))[0])
+        raise InputError(f"{shape}: face {face_of(bad)} refers to vertex {faces[bad]}, but there are "
+                         f"{vertex_count} vertices (counted from 0)")
+    return np.ascontiguousarray(faces, dtype=np.intc)
+
+
+def _polygons(shape: str, given: Any, vertex_count: int) -> Tuple[np.ndarray, np.ndarray]:
+    """Corners and offsets of faces of different lengths."""
+    rows = []
+    for number, face in enumerate(given):
+        row = np.asarray(face)
+        if row.ndim != 1:
+            raise InputError(f"{shape}: face {number} has the shape {row.shape}; it must be a list of vertex numbers")
+        rows.append(row)
+    lengths = np.fromiter((len(row) for row in rows), dtype=np.int64, count=len(rows))
+    ends = np.cumsum(lengths)
+    filled = [row for row in rows if len(row)]
+    joined = np.concatenate(filled) if filled else _NO_INTS
+    corners = _corners(shape, joined, vertex_count, lambda k: int(np.searchsorted(ends, k, side="right")))
+    if len(ends) and ends[-1] > _INT.max:
+        raise InputError(f"{shape}: the mesh has too many corners; split it")
+    return corners, np.concatenate([[0], ends]).astype(np.intc)
+
+
+def _faces(shape: str, given: Any, vertex_count: int) -> Tuple[np.ndarray, np.ndarray]:
+    faces = given if isinstance(given, np.ndarray) else None
+    if faces is None:
+        try:
+            faces = np.asarray(given)
+        except ValueError:  # rows of different lengths
+            return _polygons(shape, given, vertex_count)
+    if faces.dtype == object and faces.ndim == 1:
+        return _polygons(shape, given, vertex_count)
+    if faces.size == 0 and faces.ndim <= 2:
+        return _NO_INTS, np.zeros(1, dtype=np.intc)
+    if faces.ndim != 2 or faces.shape[1] < 3:
+        raise InputError(f"{shape}: the faces have the shape {faces.shape}, not (F, k) with k at least 3")
+    width = faces.shape[1]
+    if faces.size > _INT.max:
+        raise InputError(f"{shape}: the mesh has too many corners; split it")
+    corners = _corners(shape, faces.reshape(-1), vertex_count, lambda k: k // width)
+    if width == 3:
+        return corners, _NO_INTS
+    return corners, np.arange(0, faces.size + 1, width, dtype=np.intc)
+
+
+def _arrays_of(index: int, mesh: Any) -> Tuple[Any, Any]:
+    if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        return mesh.vertices, mesh.faces
+    if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
+        return mesh[0], mesh[1]
+    raise InputError(f"shape {index}: give a path, (vertices, faces), or an object with these attributes, "
+                     f"not {type(mesh).__name__}")
+
+
+def given_shapes(meshes: MeshesLike, names: Optional[Sequence[str]] = None) -> list:
+    """[(name, path, vertices, corners, offsets)] for the extension."""
+    if _is_path(meshes):
+        with translated():
+            meshes = _core.mesh_files([path_bytes(meshes)])
+    elif isinstance(meshes, np.ndarray) or hasattr(meshes, "vertices"):
+        raise InputError("the meshes must be a list, as [(vertices, faces), ...], or a folder")
+    meshes = list(meshes)
+    if names is not None:
+        names = [str(name) for name in names]
+        if len(names) != len(meshes):
+            raise UsageError(f"names: there are {len(names)} for {len(meshes)} shapes")
+    shapes = []
+    for index, mesh in enumerate(meshes):
+        name = names[index] if names is not None else ""
+        key = os.fsencode(name)
+        if _is_path(mesh):
+            shapes.append((key, path_bytes(mesh), _NO_DOUBLES, _NO_INTS, _NO_INTS))
+            continue
+        vertices, faces = _arrays_of(index, mesh)
+        shape = f"shape {index}" + (f" ('{name}')" if name else "")
+        vertices = _vertices(shape, vertices)
+        shapes.append((key, "", vertices.reshape(-1), *_faces(shape, faces, len(vertices))))
+    return shapes
+
+
+def given_options(options: Mapping[str, Any]) -> list:
+    """[(name, text)]: geodesic_samples=200 is the option --geodesic-samples 200."""
+    return [(name.rstrip("_").replace("_", "-"), _option_text(value)) for name, value in options.items()
+            if value is not None]
+
+
+def _option_text(value: Any) -> str:
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return ",".join(_option_text(one) for one in value)
+    return str(value)
+
+
+def given_communicator(comm: Any) -> Optional[int]:
+    """The Fortran handle of a communicator of mpi4py or of anything with py2f(); "world" is all processes."""
+    if comm is None:
+        return None
+    if isinstance(comm, str) and comm == "world":
+        with translated():
+            return _core.world()
+    if hasattr(comm, "py2f"):
+        with translated():
+            _core.start()
+        return int(comm.py2f())
+    raise UsageError('comm: give a communicator of mpi4py, "world", or None')
+
+
+def given_labels(what: str, labels: Iterable[Any]) -> list:
+    rows = []
+    for index, row in enumerate(labels):
+        array = _NO_INTS if row is None else np.asarray(row)
+        if array.ndim != 1 or (array.size and array.dtype.kind not in "iub"):
+            raise InputError(f"shape {index}: the {what} must be F whole numbers, not {array.dtype} of the "
+                             f"shape {array.shape}")
+        if array.size and (int(array.max()) > _INT.max or int(array.min()) < _INT.min):
+            raise InputError(f"shape {index}: the {what} hold a number beyond 32 bits")
+        rows.append(np.ascontiguousarray(array, dtype=np.intc))
+    return rows
+
+
+def given_path(path: Any) -> bytes:
+    return b"" if path is None else path_bytes(path)

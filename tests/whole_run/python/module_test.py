@@ -1,0 +1,330 @@
+"""Tests of the Python module, run by python_test.sh, which says where the program (COSEG) is and where to write."""
+
+import inspect
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import coseg
+
+WORK = pathlib.Path(os.environ["COSEG_WORK"])
+QUICK = dict(patches=20, geodesic_samples=50)
+TINY = dict(patches=4, geodesic_samples=10, oversegmentations=1, choose=False)
+
+
+def program(*words):
+    answer = subprocess.run([os.environ["COSEG"], *map(str, words)], capture_output=True, text=True, check=False)
+    assert answer.returncode == 0, answer.stderr
+    return answer.stdout
+
+
+def seg(path):
+    return np.loadtxt(path, dtype=int)
+
+
+@pytest.fixture(scope="module")
+def run():
+    """A run of the program on generated tables, and the names of its shapes."""
+    program("generate", "table", "--count", 4, "--seed", 5, "--faces", 2000, "--out", WORK / "set")
+    program("run", "--quiet", "--parts", 2, "--patches", 20, "--geodesic-samples", 50, "--no-sheet", "--no-html",
+            "--out", WORK / "run", WORK / "set/meshes")
+    return WORK / "run", [f"table_{k:04}" for k in range(4)]
+
+
+@pytest.fixture(scope="module")
+def tables():
+    return coseg.generate("table", 4, seed=5, faces=2000)
+
+
+def equals_run(result, run, order=(0, 1, 2, 3)):
+    folder, names = run
+    for row, k in enumerate(order):
+        assert result.names[row] == names[k]
+        assert np.array_equal(result.labels[row], seg(folder / f"labels/{names[k]}.seg"))
+        assert np.array_equal(result.patches[row], seg(folder / f"patches/{names[k]}.seg"))
+    return True
+
+
+def test_generated_shapes_are_those_of_the_program(run, tables):
+    for mesh, name in zip(tables, run[1]):
+        from_file = coseg.load_mesh(WORK / f"set/meshes/{name}.off")
+        assert mesh.name == name
+        assert np.array_equal(mesh.vertices, from_file.vertices) and np.array_equal(mesh.faces, from_file.faces)
+        assert np.array_equal(mesh.labels, seg(WORK / f"set/truth/{name}.seg"))
+
+
+def test_arrays_have_the_labels_of_the_program_in_any_order_and_again(run, tables):
+    order = (2, 0, 3, 1)
+    shapes = [(tables[k].vertices, tables[k].faces) for k in order]
+    names = [run[1][k] for k in order]
+    for _ in range(2):
+        result = coseg.segment(shapes, 2, names=names, **QUICK)
+        assert equals_run(result, run, order)
+    assert result.parts == 2 and not result.set_aside
+    assert np.allclose(result.part_areas.sum(axis=1), 1)
+    report = json.loads((run[0] / "report.json").read_text())
+    assert result.certificate["objective"] == report["optimisation"]["objective"]
+    assert result.certificate["reached"] and result.certificate["relative_gap"] <= 1e-4
+    assert result.report["optimisation"] == report["optimisation"]
+    assert [mesh["name"] for mesh in result.report["meshes"]] == run[1]
+
+
+def test_files_folders_and_mixtures_have_the_labels_of_the_program(run, tables):
+    files = coseg.mesh_files(WORK / "set/meshes")
+    assert equals_run(coseg.segment(WORK / "set/meshes", 2, **QUICK), run)
+    mixed = [files[0], pathlib.Path(files[1]), tables[2], (tables[3].vertices.astype(np.float64), tables[3].faces.tolist())]
+    result = coseg.segment(mixed, 2, names=run[1], out=WORK / "mixed", sheet=False, html=False, **QUICK)
+    assert equals_run(result, run) and result.folder == str(WORK / "mixed")
+    loaded = coseg.Result.load(WORK / "mixed")
+    assert equals_run(loaded, run)
+    assert loaded.certificate == result.certificate and loaded.parts == 2
+    with pytest.raises(coseg.Error, match="not empty") as error:
+        coseg.segment(mixed, 2, names=run[1], out=WORK / "mixed", **QUICK)
+    assert error.value.code == 4
+
+
+def test_state_folder_serves_arrays(run, tables):
+    shapes = [(mesh.vertices, mesh.faces) for mesh in tables]
+    for again in (False, True):
+        result = coseg.segment(shapes, 2, names=run[1], state=WORK / "state", **QUICK)
+        assert equals_run(result, run)
+        assert all(mesh["reused"] == again for mesh in result.report["meshes"])
+    moved = [(tables[0].vertices * 2, tables[0].faces)] + shapes[1:]
+    result = coseg.segment(moved, 2, names=run[1], state=WORK / "state", **QUICK)
+    assert [mesh["reused"] for mesh in result.report["meshes"]] == [False, True, True, True]
+
+
+def test_assign_by_result_and_by_folder_are_the_program_s(run, tables):
+    new = coseg.generate("table", 6, seed=5, faces=2000)[4:]
+    names = ["new_a", "new_b"]
+    for mesh, name in zip(new, names):
+        with open(WORK / f"{name}.obj", "w", encoding="ascii") as file:
+            file.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in mesh.vertices.tolist())
+            file.writelines(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in mesh.faces)
+    program("assign", "--quiet", "--no-sheet", "--no-html", "--to", run[0], "--out", WORK / "assigned",
+            WORK / "new_a.obj", WORK / "new_b.obj")
+    wanted = [seg(WORK / f"assigned/labels/{name}.seg") for name in names]
+    result = coseg.segment(tables, 2, names=run[1], **QUICK)
+    for to in (result, run[0], coseg.Result.load(run[0])):
+        found = coseg.assign(new, to, names=names)
+        assert all(np.array_equal(a, b) for a, b in zip(found.labels, wanted))
+    with pytest.raises(coseg.UsageError, match="keep_model"):
+        coseg.assign(new, coseg.segment(tables[:2], 2, keep_model=False, **TINY))
+    with pytest.raises(coseg.InputError, match="is no run"):
+        coseg.assign(new, WORK / "set")
+
+
+def test_score_is_that_of_the_program(run, tables):
+    wanted = json.loads(program("score", "--json", "--truth", WORK / "set/truth", "--labels", run[0] / "labels",
+                                WORK / "set/meshes"))
+    found = coseg.score(tables, coseg.Result.load(run[0]), [mesh.labels for mesh in tables])
+    assert found.accuracy == pytest.approx(wanted["one_to_one"] / 100, abs=1e-6)
+    assert found.rand_index == pytest.approx(wanted["rand_index"], abs=1e-4)
+    assert found.shapes[2]["accuracy"] == pytest.approx(wanted["per_shape"]["table_0002"] / 100, abs=1e-6)
+    perfect = coseg.score(tables, [1 - mesh.labels for mesh in tables], [mesh.labels for mesh in tables])
+    assert perfect.accuracy == pytest.approx(1)
+    with pytest.raises(coseg.InputError, match="shape 1: 3 labels for"):
+        coseg.score(tables[:2], [tables[0].labels, [0, 1, 0]], [mesh.labels for mesh in tables[:2]])
+
+
+def test_describe(tables):
+    mesh = tables[1]
+    first, scaled = coseg.describe([mesh, (mesh.vertices * 3, mesh.faces)], names=["a", "b"], remesh="never",
+                                   geodesic_samples=50)
+    corners = mesh.vertices[mesh.faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    assert np.allclose(first.areas, areas) and np.allclose(scaled.areas, 9 * areas)
+    assert {"shape_diameter", "gaussian_curvature"} <= set(first.descriptors)
+    for values in first.descriptors.values():
+        assert len(values) == len(mesh.faces) and np.isfinite(values).all()
+    assert any(values.ndim == 2 for values in first.descriptors.values())
+    assert np.allclose(first.descriptors["shape_diameter"], scaled.descriptors["shape_diameter"], rtol=1e-6)
+    only = coseg.describe([mesh], feature_weights=[0, 1, 0, 0, 0])[0]
+    assert list(only.descriptors) == ["shape_diameter"]
+
+
+def test_clusters_have_the_objective_that_they_certify():
+    random = np.random.default_rng(1)
+    truth = np.repeat([0, 1, 2], 12)
+    views = [np.abs(np.eye(3)[truth] @ random.random((3, d)) + 0.02 * random.random((36, d))) for d in (8, 5)]
+    alpha, beta, lambda_ = 0.02, 0.05, 0.5
+    found = coseg.cluster(views, 3, alpha=alpha, beta=beta, lambda_=lambda_, unit_items=True, gap=1e-8)
+    assert len({(a, b) for a, b in zip(found.labels, truth)}) == 3
+    columns = [(view / np.linalg.norm(view, axis=1, keepdims=True)).T for view in views]
+    w = [matrix.toarray() for matrix in found.coefficients]
+    objective = sum(np.sum((x @ m - x) ** 2) + lambda_ * np.sum(m.sum(axis=1) ** 2) for x, m in zip(columns, w))
+    objective += alpha * np.sqrt(sum(m ** 2 for m in w)).sum() + beta * sum(np.abs(m).sum() for m in w)
+    assert found.certificate["objective"] == pytest.approx(objective, rel=1e-6)
+    assert found.certificate["lower_bound"] <= found.certificate["objective"]
+    norms = np.sqrt(sum(m ** 2 for m in w))
+    assert np.allclose(found.affinity.toarray(), (norms + norms.T) / 2)
+    model = coseg.SubspaceClustering(3, alpha=alpha, beta=beta, lambda_=lambda_, unit_items=True, gap=1e-8)
+    assert np.array_equal(model.fit_predict(views), found.labels)
+    grouped = coseg.cluster(views, 3, groups=list("ab") * 18, unit_items=True)
+    groups = np.tile([0, 1], 18)
+    for matrix in grouped.coefficients:
+        entries = matrix.tocoo()
+        assert (groups[entries.row] != groups[entries.col]).all()
+    for bad, words in ((dict(parts=0), "parts"), (dict(parts=99), "99 parts"), (dict(parts=2, variant="x"), "multi-feature"),
+                       (dict(parts=2, alpha=float("nan")), "alpha"), (dict(parts=2, groups=[1]), "groups")):
+        with pytest.raises((coseg.UsageError, coseg.InputError), match=words):
+            coseg.cluster(views, **bad)
+    with pytest.raises(coseg.InputError, match="feature 1"):
+        coseg.cluster(-views[0], 3)
+
+
+CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+QUADS = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+CAP = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7], [1, 7, 3]]
+
+
+def test_every_kind_of_faces_keeps_its_place():
+    class Trimesh:  # pylint: disable=too-few-public-methods
+        vertices, faces = CUBE.astype(np.float32), np.array(QUADS, dtype=np.uint8)
+
+    result = coseg.segment([(CUBE.tolist(), QUADS), (CUBE, CAP), Trimesh(), (CUBE.astype(int), [np.array(q) for q in CAP])],
+                           2, **TINY)
+    assert [len(labels) for labels in result.labels] == [6, 7, 6, 7]
+    assert result.names == ["shape_0000", "shape_0001", "shape_0002", "shape_0003"]
+
+
+@pytest.mark.parametrize("mesh, words", [
+    ((CUBE[:, :2], QUADS), r"shape 1: the vertices have the shape \(8, 2\), not \(V, 3\)"),
+    ((CUBE[0], QUADS), r"shape 1: the vertices have the shape \(3,\)"),
+    ((CUBE.astype(str), QUADS), "shape 1: the vertices are of type <U"),
+    ((CUBE.astype(complex), QUADS), "shape 1: the vertices are of type complex"),
+    ((np.where(CUBE == CUBE[5], np.nan, CUBE), QUADS), "shape 1: vertex 0 has a coordinate that is not finite|shape 1: vertex"),
+    ((CUBE * 1e300, QUADS), "shape 1: vertex"),
+    ((CUBE, QUADS[:5] + [[1, 5, 7, 8]]), "shape 1: face 5 refers to vertex 8, but there are 8 vertices"),
+    ((CUBE, QUADS[:2] + [[-1, 5, 7, 3]]), "shape 1: face 2 refers to vertex -1"),
+    ((CUBE, CAP[:6] + [[1, 7, 2 ** 40]]), "shape 1: face 6 refers to vertex 1099511627776"),
+    ((CUBE, np.array(QUADS[:4] + [[0, 1, 2, 2 ** 63 - 1]])), "shape 1: face 4 refers to vertex 9223372036854775807"),
+    ((CUBE, np.array(QUADS, dtype=float)), "shape 1: the faces are of type float64, not whole numbers"),
+    ((CUBE, np.array(QUADS)[:, :2]), r"shape 1: the faces have the shape \(6, 2\)"),
+    ((CUBE, np.zeros((2, 2, 3), dtype=int)), r"shape 1: the faces have the shape \(2, 2, 3\)"),
+    ((CUBE, [[[0, 1], [2, 3]], [1, 2, 3]]), "shape 1: face 0|shape 1: the faces"),
+    ((CUBE, []), "shape 1: the mesh has no faces"),
+    ((np.zeros((0, 3)), QUADS), "shape 1: face 0 refers to vertex 0, but there are 0"),
+    ((CUBE * 0, QUADS), "shape 1: the mesh has no area"),
+    (7, "shape 1: give a path, .*, not int"),
+    ("missing.off", "missing.off: no such file"),
+    (str(WORK), "is no mesh file|has no"),
+])
+def test_bad_shapes_are_exceptions_that_name_shape_and_face(mesh, words):
+    WORK.mkdir(exist_ok=True)
+    with pytest.raises(coseg.InputError, match=words) as error:
+        coseg.segment([(CUBE, QUADS), mesh], 2, **TINY)
+    assert error.value.code == 3
+    if isinstance(mesh, tuple):
+        with pytest.raises(coseg.InputError, match=words):
+            coseg.describe([(CUBE, QUADS), mesh], **{k: TINY[k] for k in ("patches", "geodesic_samples")})
+
+
+def test_bad_shapes_can_be_set_aside():
+    bad = (CUBE, QUADS[:5] + [[1, 5, 7, 8]])
+    result = coseg.segment([bad, (CUBE, QUADS), (CUBE * 2, QUADS)], 2, strict=False, **TINY)
+    assert list(result.set_aside) == [0] and "shape 0: face 5 refers to vertex 8" in result.set_aside[0]
+    assert result.labels[0] is None and len(result.labels[1]) == 6 and np.isnan(result.part_areas[0]).all()
+    assert any("face 5" in warning for warning in result.warnings)
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (dict(meshes=[]), "no shape is given"),
+    (dict(meshes=(CUBE, QUADS)), "shape 0: give a path"),
+    (dict(meshes=CUBE), "must be a list"),
+    (dict(parts=0), "parts: 0 is not in 1"),
+    (dict(parts=2.5), "parts: 2.5 is no whole number"),
+    (dict(parts=500), "parts 500 exceeds the 8 patches"),
+    (dict(patchs=3), "did you mean 'patches'"),
+    (dict(out_=3), "'out' is no option"),
+    (dict(patches=1), "patches"),
+    (dict(patches="many"), "patches"),
+    (dict(alpha=float("nan")), "alpha"),
+    (dict(names=["a"]), "there are 1 for 2"),
+    (dict(names=["a", "a"]), "two shapes are named 'a'"),
+    (dict(names=["a", "../b"]), "without '/'"),
+    (dict(feature_weights=[0, 0, 0, 0, 0]), "at least one"),
+    (dict(comm=3), "comm"),
+])
+def test_bad_arguments_are_exceptions(arguments, words):
+    given = {"meshes": [(CUBE, QUADS), (CUBE, QUADS)], "parts": 2, **TINY, **arguments}
+    with pytest.raises((coseg.UsageError, coseg.InputError), match=words):
+        coseg.segment(given.pop("meshes"), given.pop("parts"), **given)
+
+
+def test_progress_tells_all_stages_and_may_end_the_call(tables):
+    seen = []
+    coseg.segment(tables, 2, progress=lambda *told: seen.append(told), **QUICK)
+    stages = list(dict.fromkeys(stage for stage, _, _ in seen))
+    assert stages[:3] == ["describe", "features", "optimise"] and stages[-1] == "label"
+    assert ("describe", 3, 4) in seen and ("label", 1, 1) in seen
+
+    def stop(stage, done, total):
+        if stage == "optimise":
+            raise LookupError(f"{done} of {total}")
+    with pytest.raises(LookupError, match="0 of 0"):
+        coseg.segment(tables, 2, progress=stop, **QUICK)
+
+    def call_again(*_):
+        coseg.cluster(np.eye(4) + 1, 2)
+    with pytest.raises(coseg.UsageError, match="another call"):
+        coseg.segment(tables, 2, progress=call_again, **QUICK)
+    assert coseg.segment(tables[:2], 2, **TINY).parts == 2
+
+
+def test_the_interpreter_is_free_and_ctrl_c_works(tables):
+    ticks = []
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    beat = threading.Thread(target=lambda: [ticks.append(time.sleep(0.01)) for _ in range(20)])
+    beat.start()
+    timer.start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            coseg.describe([mesh for mesh in tables for _ in range(40)], geodesic_samples=300)
+    assert time.monotonic() - start < 5
+    assert len(ticks) > 5
+    beat.join()
+    assert coseg.segment(tables[:2], 2, **TINY).parts == 2
+
+
+def resident_mib():
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2 ** 20
+
+
+def test_many_calls_keep_no_memory():
+    def call():
+        coseg.segment([(CUBE, QUADS), (CUBE * 2, QUADS)], 2, **TINY)
+        with pytest.raises(coseg.InputError):
+            coseg.segment([(CUBE, QUADS), (CUBE, [[0, 1, 9]])], 2, **TINY)
+        coseg.cluster(np.eye(6)[:, :3] + 0.1, 2)
+    for _ in range(15):
+        call()
+    before = resident_mib()
+    for _ in range(40):
+        call()
+    assert resident_mib() - before < 6
+
+
+def test_draw(tables):
+    result = coseg.Result.load(WORK / "run") if (WORK / "run").exists() else coseg.segment(tables, 2, **TINY)
+    figure = coseg.draw(tables + [(CUBE, CAP)], result.labels + [np.arange(7)], columns=3)
+    assert len(figure.axes) == 5
+    figure.savefig(WORK / "picture.png")
+    assert (WORK / "picture.png").stat().st_size > 5000
+
+
+def test_the_module_says_what_it_is():
+    assert coseg.__version__ == program("--version").split("\n")[0].split()[1]
+    assert "patches" in coseg.option_names() and "out" not in coseg.option_names()
+    for name in coseg.__all__:
+        value = getattr(coseg, name)
+        assert value.__doc__ or not (inspect.isclass(value) or inspect.isfunction(value)), name

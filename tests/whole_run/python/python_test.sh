@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# The Python module as it is installed: module_test.py with pytest, scripts on two ranks, and the examples.
+set -euo pipefail
+# shellcheck source=tests/whole_run/fixture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
+
+build=$(cd "$(dirname "$COSEG")/.." && pwd)
+python=$(sed -n 's/^Python_EXECUTABLE:[^=]*=//p' "$build/CMakeCache.txt")
+python=${python:-/usr/bin/python3}
+if ! compgen -G "$build/python/coseg/_core*.so" >/dev/null; then
+    echo "skipped: the Python module is not built; it needs python3-dev, python3-numpy and pybind11-dev"
+    exit 77
+fi
+"$python" -c "import pytest, scipy, matplotlib" || { echo "skipped: no pytest, scipy or matplotlib"; exit 77; }
+
+cmake --install "$build" --component python --prefix "$work/prefix" >"$work/log" 2>&1 || { tail "$work/log"; fail "cmake --install"; }
+[[ ! -e $work/prefix/bin && ! -e $work/prefix/include ]] || fail "the component has more than the module"
+export PYTHONPATH=$work/prefix/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 MPLCONFIGDIR=$work
+here=$(dirname "${BASH_SOURCE[0]}")
+COSEG_WORK=$work/module timeout --signal=KILL 500 "$python" -m pytest -q -x -p no:cacheprovider "$here/module_test.py" ||
+    fail "module_test.py"
+echo "ok: module_test.py"
+
+# Two processes that share the work, with and without mpi4py, give the bytes of one.
+cat >"$work/shared.py" <<'END'
+import hashlib
+import sys
+import coseg
+comm = "world"
+if sys.argv[1] == "mpi4py":
+    from mpi4py import MPI
+    comm = MPI.COMM_WORLD
+shapes = coseg.generate("table", 4, seed=5, faces=2000)
+result = coseg.segment(shapes, 2, names=[s.name for s in shapes], patches=20, geodesic_samples=50, comm=comm)
+assert result.report["ranks"] == int(sys.argv[2]), result.report["ranks"]
+try:
+    coseg.segment([shapes[0], ([[0, 0, 0]], [[0, 0, 9]])], 2, comm=comm)
+    raise SystemExit("a bad shape was taken")
+except coseg.InputError as error:
+    assert "shape 1: face 0 refers to vertex 9" in str(error), error
+print(hashlib.sha256(b"".join(labels.tobytes() for labels in result.labels)).hexdigest())
+END
+"$python" "$work/shared.py" world 1 >"$work/alone" || fail "a script on one process"
+ranks 2 "$python" "$work/shared.py" world 2 >"$work/together" || fail "a script on two processes"
+[[ $(sort -u "$work/together") == "$(cat "$work/alone")" && $(wc -l <"$work/together") -eq 2 ]] || fail "labels on two processes"
+if "$python" -c "import mpi4py" 2>/dev/null; then
+    ranks 2 "$python" "$work/shared.py" mpi4py 2 >"$work/together" || fail "a script with mpi4py"
+    [[ $(sort -u "$work/together") == "$(cat "$work/alone")" ]] || fail "labels with mpi4py"
+fi
+echo "ok: two processes"
+
+# The examples run, and draw; the cells of a notebook are run one after the other, as Jupyter would.
+cp -r "$COSEG_SOURCE/python/examples" "$work/examples"
+(cd "$work/examples" && "$python" segment_generated.py "$work/picture.png" >"$work/out") || fail "segment_generated.py"
+[[ $(head -c 4 "$work/picture.png" | tail -c 3) == PNG ]] || fail "segment_generated.py draws nothing"
+grep -q "^accuracy 0\.[89]" "$work/out" || fail "segment_generated.py says $(cat "$work/out")"
+"$python" - "$work/examples/segment_generated.ipynb" <<'END' || fail "the notebook"
+import json, sys
+notebook = json.load(open(sys.argv[1]))
+assert notebook["nbformat"] == 4
+code = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+assert sum(len(cell.strip().splitlines()) for cell in code[:2]) < 10, "more than 10 lines to the picture"
+names = {}
+for cell in code:
+    *lines, last = cell.strip().splitlines()
+    exec("\n".join(lines), names)
+    shown = eval(last, names)
+    names.setdefault("shown", []).append(shown)
+figure = names["shown"][1]
+figure.savefig(sys.argv[1] + ".png")
+assert len(figure.axes) == 12
+assert 0.8 < names["shown"][2] <= 1.0, names["shown"]
+END
+awk '/^```/ { inside = ($0 == "```python") ; next } inside' "$COSEG_SOURCE/docs/python.md" >"$work/document.py"
+"$python" "$work/document.py" >"$work/out" || fail "the code of docs/python.md"
+grep -q "shape 0: face 0 refers to vertex 7, but there are 3 vertices" "$work/out" || fail "docs/python.md says $(cat "$work/out")"
+echo "ok: the examples and the document"
