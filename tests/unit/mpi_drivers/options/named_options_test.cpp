@@ -41,7 +41,8 @@ TEST(NamedOptions, WithoutAnyTheyAreTheDefaults) {
     const std::vector<OptionValue> standard = option_values({});
     ASSERT_EQ(given.size(), standard.size());
     for (std::size_t k = 0; k < given.size(); ++k) {
-        if (given[k].key != "parts") EXPECT_EQ(given[k].value, standard[k].value) << given[k].key;
+        if (given[k].key == "parts") continue;
+        EXPECT_EQ(given[k].value, standard[k].value) << given[k].key;
     }
 }
 
