@@ -138,11 +138,11 @@ void refuse_if_not_finite(const FaceDescriptors& descriptors, const std::string&
     }
 }
 
-using MeshSource = std::function<ParsedMesh()>;
+using MeshReading = std::function<ParsedMesh()>;
 
 /// All but the patches; returns the working mesh.
 TriMesh describe_surface(DescribedMesh& described, int number, const std::string& name,
-                         const std::string& path, const MeshSource& read, const DescriptionOptions& options) {
+                         const std::string& path, const MeshReading& read, const DescriptionOptions& options) {
     MeshDescription& mesh = described.mesh;
     StepClock clock(mesh);
     mesh.mesh = number;
@@ -165,7 +165,7 @@ TriMesh describe_surface(DescribedMesh& described, int number, const std::string
 }
 
 DescribedMesh describe_whole(int mesh, const std::string& name, const std::string& path,
-                             const MeshSource& read, const DescriptionOptions& options) {
+                             const MeshReading& read, const DescriptionOptions& options) {
     DescribedMesh described;
     const TriMesh working = describe_surface(described, mesh, name, path, read, options);
     StepClock clock(described.mesh);
@@ -198,7 +198,7 @@ DescribedMesh describe_polygons(int mesh, const std::string& name, const std::st
 }
 
 DescribedMesh describe_mesh_faces(int mesh, const MeshEntry& entry, const DescriptionOptions& options) {
-    const MeshSource read = [&] {
+    const MeshReading read = [&] {
         if (entry.polygons != nullptr) return checked_polygons(*entry.polygons, entry.path);
         return parse_mesh(mesh_file_bytes(entry.path), entry.path);
     };
