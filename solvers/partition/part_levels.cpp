@@ -82,8 +82,8 @@ std::vector<int> provisional_numbers(const Groups& groups, int parts) {
     return number;
 }
 
-/// The numbers of pieces such that the union before last inside the parts has taken piece K, the one before it
-/// piece K + 1, and so on.
+/// The numbers of pieces such that the last union inside the parts has taken piece K, the one before it piece
+/// K + 1, and so on.
 std::vector<int> final_numbers(const std::vector<PieceUnion>& unions, int pieces, int parts) {
     std::vector<int> number(at(pieces));
     std::iota(number.begin(), number.end(), 0);

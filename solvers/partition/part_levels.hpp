@@ -9,14 +9,13 @@
 namespace coseg {
 
 /// The tree of clusters in place of patches. Clusters lie inside parts: part_of_cluster, 0 .. K-1, each of
-/// which occurs. Of all pairs that may
-/// be united the one that loses least is, again and again: inside the parts down to `finest` pieces, which are
-/// the finest level, and on to K; then between parts, down to 2. Serial; a function of the arguments alone.
-/// K and finest at least 2.
+/// which occurs. Again and again the pair that loses least by it is united: inside the parts down to `finest`
+/// pieces, which are the finest level, and on to K; then between parts, down to 2. K and `finest` are at
+/// least 2. Serial; a function of the arguments alone.
 PartTree part_tree(ClusterSums clusters, const std::vector<int>& part_of_cluster, int finest);
 
-/// The label of each piece at the level of `count` parts, 0 .. count-1, 2 <= count <= tree.finest(). Labels of a
-/// level finer than K are those of K with further ones; below K the numbers close ranks.
+/// The label of each piece at the level of `count` parts, 0 .. count-1, where count is 2 to tree.finest().
+/// Labels of a level finer than K are those of K and further ones; below K the numbers close ranks.
 std::vector<int> labels_at_level(const PartTree& tree, int count);
 
 }  // namespace coseg

@@ -36,7 +36,7 @@ TEST(PartConfidence, GrowsWithWhatThePatchGainsMoreThanInTheNextBestPart) {
     known.gain.col(3) << 1.0, 13.0, 2.0;  // of two fifths of the area
     std::vector<double> c = part_confidence(objective, known, {0, 0, 1, 1}, 3);
     EXPECT_NEAR(c[3], logistic(-7.84 + 10.0 + 1.26 * std::tanh(11.0 * 2.5 / 60.0)), 1e-12);
-    // Two patches that differ from two others: 4 (d / sqrt(spread))^2 of spread explained, half of it by each.
+    // Two patches that differ from two others.
     objective.deviations << 1.0F, 1.0F, -1.0F, -2.0F;
     c = part_confidence(objective, {}, {0, 0, 1, 1}, 2);
     // Patch 3 in part 1 (sum -3, area 3) and in part 0 (sum 2, area 2), both norms counted.
