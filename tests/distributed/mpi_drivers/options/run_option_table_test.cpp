@@ -38,6 +38,7 @@ std::map<std::string, OptionValue> by_key(const RunOptions& options) {
 /// Another value of every option of the table but --config and --preset, as it stands on the command line.
 const std::map<std::string, std::vector<std::string>> changes = {
     {"parts", {"--parts=4"}},
+    {"examples", {"--examples=folder"}},
     {"out", {"--out=elsewhere"}},
     {"keep-model", {"--no-keep-model"}},
     {"force", {"--force"}},
@@ -85,6 +86,7 @@ const std::map<std::string, std::vector<std::string>> changes = {
     {"overlap", {"--overlap=2"}},
     {"mesh-balance", {"--mesh-balance=0.1"}},
     {"choose", {"--no-choose"}},
+    {"levels", {"--levels"}},
     {"subsets", {"--subsets=5"}},
     {"segments", {"--segments"}},
     {"partition", {"--partition=diffusion"}},
