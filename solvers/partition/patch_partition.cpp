@@ -135,6 +135,11 @@ void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& 
     result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
 }
 
+bool has_all_parts(const CutResult& result) {
+    return std::none_of(result.part_share.begin(), result.part_share.end(),
+                        [](double share) { return share <= 0.0; });
+}
+
 /// The tree over the pieces in which parts and clusters of patches divide each other.
 PartTree tree_of(const PartitionEvidence& evidence, const CutOptions& options,
                  const std::vector<int>& part_of_patch, const std::vector<int>& cluster_of_patch) {
@@ -224,9 +229,7 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
                       ? found_alone(comm, evidence, options, std::move(clusters))
                       : found_by_examples(comm, input, {evidence, terms.frame}, options, std::move(clusters));
     CutResult result = described(input, options.parts, terms.frame, std::move(found));
-    const bool has_all_parts =
-        std::none_of(result.part_share.begin(), result.part_share.end(), [](double s) { return s <= 0.0; });
-    if (options.finest_level > 0 && has_all_parts) {
+    if (options.finest_level > 0 && has_all_parts(result)) {
         const std::vector<CutStart> fine = {
             {result.starts[at(result.chosen)].start.graph, std::max(options.finest_level, options.parts)}};
         const ClusteringTask finer{graphs, terms, fine, options.spectral, options.drop_below, options.parts};
