@@ -57,9 +57,9 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     // parts.
     const std::vector<OptionValue> values = option_values(options);
     RunCheckpoints checkpoints(comm, folders.state(), cut_option_text(values, petsc_arguments));
-    auto [optimisation, cut] =
-        partition_stage(comm, collection, std::move(features),
-                        {optimise, partition, examples.patches, checkpoints.tiles(), checkpoints.cuts()}, log);
+    auto [optimisation, cut] = partition_stage(
+        comm, collection, std::move(features),
+        {optimise, partition, examples.patches, checkpoints.tiles(), checkpoints.cuts()}, log);
     checkpoints.warn_of_damage(log);
     folders.end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
 

@@ -142,7 +142,8 @@ using MeshReading = std::function<ParsedMesh()>;
 
 /// All but the patches; returns the working mesh.
 TriMesh describe_surface(DescribedMesh& described, int number, const std::string& name,
-                         const std::string& path, const MeshReading& read, const DescriptionOptions& options) {
+                         const std::string& path, const MeshReading& read,
+                         const DescriptionOptions& options) {
     MeshDescription& mesh = described.mesh;
     StepClock clock(mesh);
     mesh.mesh = number;
