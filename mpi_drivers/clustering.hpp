@@ -67,10 +67,10 @@ struct SolvedClusters {
 
 /// The coefficients of the items over each other. The features are taken from `data`. Collective; throws
 /// AgreedError: input where the data cannot be clustered, usage where there are fewer items than parts.
-SolvedClusters solve_clusters(const Comm& comm, ClusterData& data, const ClusterOptions& options);
+SolvedClusters solve_clusters(const Comm& comm, ClusterData& data, const ClusterOptions& settings);
 
 /// The part of every item. Collective; throws AgreedError(input) where W = 0 leaves nothing to cut.
 CutResult cut_clusters(const Comm& comm, const ClusterData& data, const SolveResult& solution,
-                       const ClusterOptions& options);
+                       const ClusterOptions& settings);
 
 }  // namespace coseg

@@ -24,10 +24,10 @@ struct CoSegmented {
     std::string report;  ///< the text of report.json, on rank 0
 };
 
-/// Runs all stages on the meshes `entries`, or where this is null on those that options.process.inputs name.
-/// The folder of results is written if options.output.folder has a name. petsc_arguments are the words that
+/// Runs all stages on the meshes `entries`, or where this is null on those that given.process.inputs name.
+/// The folder of results is written if given.output.folder has a name. petsc_arguments are the words that
 /// follow `--` on the command line. The caller has started PETSc. Collective. Throws AgreedError.
-CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, const RunOptions& options,
+CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, const RunOptions& given,
                        const std::vector<std::string>& petsc_arguments, StageLog& log);
 
 /// The command: starts PETSc, runs all stages and writes the folder of results. Collective. Throws

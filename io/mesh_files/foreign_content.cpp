@@ -107,7 +107,7 @@ std::optional<std::string> foreign_content(std::string_view bytes, std::string_v
     if (std::optional<std::string> what = named(beginning, packed, unpack)) return what;
     if (std::optional<std::string> what = named(beginning, other_formats, convert)) return what;
     if (beginning.starts_with("<")) return "text in XML or HTML, not a mesh; download the mesh again";
-    if (const std::optional<std::string> what = other_gltf(bytes, beginning, format)) return what;
+    if (std::optional<std::string> what = other_gltf(bytes, beginning, format)) return what;
     if (beginning.starts_with("{") && !is_gltf_text(bytes))
         return "text in JSON, perhaps of a server; download the mesh again, or convert it";
     const std::string_view found = mesh_format_of(bytes);

@@ -64,7 +64,7 @@ class GltfCollector {
                                               std::uint32_t vertex) const {
         const Eigen::Vector4d place(positions.real(vertex, 0), positions.real(vertex, 1),
                                     positions.real(vertex, 2), 1.0);
-        const Eigen::Vector3d position = (draw.to_scene * place).head<3>();
+        Eigen::Vector3d position = (draw.to_scene * place).head<3>();
         for (const double value : position) {
             if (is_usable_coordinate(value)) continue;
             throw Error(ExitCode::input, asset_.path + ": meshes[" + std::to_string(draw.mesh) +

@@ -20,6 +20,7 @@ class CollectionShapes {
     /// Collective. Throws AgreedError: usage for no shape, a name that no file can have, or shapes that
     /// differ between ranks; input as expand_mesh_list does.
     CollectionShapes(const Comm& comm, std::span<const Shape> shapes);
+    ~CollectionShapes() = default;
     CollectionShapes(const CollectionShapes&) = delete;
     CollectionShapes& operator=(const CollectionShapes&) = delete;
 
