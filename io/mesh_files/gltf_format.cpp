@@ -1,5 +1,6 @@
 #include "io/mesh_files/gltf_format.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <map>
 #include <optional>
