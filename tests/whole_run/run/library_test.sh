@@ -50,7 +50,8 @@ if compgen -G "$build/python/coseg/_core*.so" >/dev/null; then
     for file in "coseg/_core.*\.so" "coseg/__init__.py" "coseg/py.typed"; do
         grep -q "usr/lib/python3/dist-packages/$file" "$work/contents" || fail "python3-coseg has no $file"
     done
-    dpkg-deb --info "$work"/pack/python3-coseg_*.deb | grep -q "Depends: .*python3-numpy" || fail "python3-coseg needs no NumPy"
+    dpkg-deb --info "$work"/pack/python3-coseg_*.deb >"$work/info"  # not a pipe: grep -q would close it early
+    grep -q "Depends: .*python3-numpy" "$work/info" || fail "python3-coseg needs no NumPy"
     dpkg-deb --extract "$work"/pack/python3-coseg_*.deb "$work/python"
     PYTHONPATH=$work/python/usr/lib/python3/dist-packages /usr/bin/python3 -c \
         "import coseg; assert len(coseg.generate('table', 1)[0].faces) > 4000" || fail "the packaged module"
