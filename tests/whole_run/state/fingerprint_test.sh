@@ -33,10 +33,12 @@ done < <(find "$work"/{src,io,solvers,mpi_drivers} -name '*.?pp')
 changes "comments and white space everywhere"
 
 more() { echo 'int one_more() { return 1; }' >>"$work/$1"; }
-for file in src/pictures/*.cpp io/reports/*.cpp mpi_drivers/commands/*.cpp mpi_drivers/process/*.cpp solvers/boundaries/*.cpp; do
+for file in src/pictures/*.cpp io/reports/*.cpp mpi_drivers/commands/*.cpp mpi_drivers/process/*.cpp solvers/boundaries/fuzzy_cut.cpp; do
     for changed in "$work"/$file; do more "${changed#"$work"/}"; done
 done
-changes "pictures, reports, commands, the process, boundaries"
+changes "pictures, reports, commands, the process, boundaries of faces"
+more solvers/boundaries/minimum_cut.cpp
+changes "minimum cuts, by which parts expand" cuts
 more src/descriptors/shape_diameter.cpp
 changes "a descriptor" descriptions features
 more io/mesh_files/mesh_reader.cpp
