@@ -20,9 +20,8 @@ import sys
 import tempfile
 
 from accuracy import find_sets
-from examples import links
+from examples import add_set_arguments, links
 
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BINS = 10
 
 
@@ -122,13 +121,8 @@ def table(faces):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
-    parser.add_argument("--data", default=os.environ.get("COSEG_DATA", os.path.join(PROJECT, "..", "shared", "data")))
-    parser.add_argument("--sets", nargs="*")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--ranks", type=int, default=2)
+    add_set_arguments(parser)
     parser.add_argument("--examples", type=int, default=0)
-    parser.add_argument("--table")
     arguments = parser.parse_args()
     everything, sets = [], []
     for name, sample in find_sets(arguments.data, arguments.sets).items():

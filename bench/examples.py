@@ -36,6 +36,7 @@ def run_coseg(arguments, sample, state, out, examples):
 
 
 def score(arguments, sample, truth, labels):
+    """One-to-one accuracy in percent."""
     command = [arguments.coseg, "score", "--json", "--truth", truth, "--labels", labels] + sample["meshes"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     return json.loads(done.stdout)["one_to_one"]
@@ -82,17 +83,22 @@ def table(results, examples):
     return "\n".join(lines)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def add_set_arguments(parser):
+    """What a measurement over labelled sets with one seed needs to know."""
     parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
     parser.add_argument("--data", default=os.environ.get("COSEG_DATA", os.path.join(PROJECT, "..", "shared", "data")))
     parser.add_argument("--sets", nargs="*")
-    parser.add_argument("--examples", type=int, default=1)
-    parser.add_argument("--choices", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--out", default="examples.json")
     parser.add_argument("--table")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add_set_arguments(parser)
+    parser.add_argument("--examples", type=int, default=1)
+    parser.add_argument("--choices", type=int, default=0)
+    parser.add_argument("--out", default="examples.json")
     arguments = parser.parse_args()
     if arguments.choices == 0 and arguments.examples != 1:
         parser.error("--examples above 1 needs a number of --choices")

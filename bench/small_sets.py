@@ -8,7 +8,6 @@ one-to-one accuracy. The table has the median over the seeds, the lowest, and ho
 median. Exit code 1 if any does.
 """
 import argparse
-import json
 import os
 import statistics
 import subprocess
@@ -16,6 +15,7 @@ import sys
 import tempfile
 
 from accuracy import generated_sets
+from examples import score
 
 PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 MOST_BELOW = 5.0
@@ -25,8 +25,7 @@ def accuracy(arguments, sample, seed, out):
     run = ["mpirun", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html", "--force",
            "--no-keep-model", "--parts", str(sample["parts"]), "--seed", str(seed), "--out", out] + sample["meshes"]
     subprocess.run(run, check=True, capture_output=True)
-    score = [arguments.coseg, "score", "--json", "--truth", sample["truth"], "--labels", out + "/labels"] + sample["meshes"]
-    return json.loads(subprocess.run(score, check=True, capture_output=True, text=True).stdout)["one_to_one"]
+    return score(arguments, sample, sample["truth"], out + "/labels")
 
 
 def main():

@@ -1,6 +1,5 @@
 #include "mpi_drivers/results/label_stage.hpp"
 
-#include <numeric>
 #include <utility>
 
 #include "solvers/boundaries/fuzzy_cut.hpp"
@@ -37,9 +36,7 @@ std::vector<float> confidence_of_faces(const MeshDescription& mesh, const PatchN
                                        const CutResult& cut, const std::vector<int>& part_of_input_face,
                                        int parts) {
     if (cut.confidence.empty() || parts < 2) return {};
-    std::vector<int> itself(mesh.map.input_face.size());
-    std::iota(itself.begin(), itself.end(), 0);
-    const std::vector<int> working = carry_labels_back(mesh.map, itself, mesh.geometry.area);
+    const std::vector<int> working = main_working_faces(mesh.map, mesh.geometry.area);
     std::vector<float> confidence;
     for (std::size_t f = 0; f < working.size(); ++f) {
         double sum = 0.0;

@@ -13,7 +13,7 @@ namespace coseg {
 /// that is in a part.
 class PartGains {
   public:
-    /// labels: 0 .. parts-1 of each patch. The objective is not copied.
+    /// labels: 0 .. parts-1 of each patch. Neither is copied.
     PartGains(const PartitionObjective& objective, const std::vector<int>& labels, int parts);
 
     /// parts x n, of the patches of one mesh. In a part that the mesh has nothing of, its own share of the
@@ -22,7 +22,7 @@ class PartGains {
 
   private:
     const PartitionObjective& objective_;
-    const std::vector<int> labels_;
+    const std::vector<int>& labels_;
     Eigen::MatrixXf deviations_;  ///< D x K, sums over all meshes
     Eigen::VectorXd area_;        ///< K, likewise
     Eigen::MatrixXd share_;       ///< K x M: of the mesh's area

@@ -133,14 +133,23 @@ std::size_t best_candidate(const std::vector<PartitionCandidate>& candidates) {
     return ranking(candidates).front();
 }
 
+namespace {
+
+/// The candidate with other labels, described.
+PartitionCandidate relabelled(const SearchTask& task, PartitionCandidate candidate, std::vector<int> labels) {
+    candidate.labels = std::move(labels);
+    describe_labels(task, candidate);
+    return candidate;
+}
+
+}  // namespace
+
 PartitionCandidate expanded(const Comm& comm, const SearchTask& task, PartitionCandidate outcome) {
     const auto score = [&](const std::vector<int>& labels) {
-        PartitionCandidate tried = outcome;
-        tried.labels = labels;
-        describe_labels(task, tried);
-        const bool is_worse = tried.outcome.parts_found < outcome.outcome.parts_found ||
-                              tried.outcome.degenerate > outcome.outcome.degenerate;
-        return is_worse ? -std::numeric_limits<double>::infinity() : tried.outcome.score;
+        const StartOutcome tried = relabelled(task, outcome, labels).outcome;
+        const bool is_worse =
+            tried.parts_found < outcome.outcome.parts_found || tried.degenerate > outcome.outcome.degenerate;
+        return is_worse ? -std::numeric_limits<double>::infinity() : tried.score;
     };
     outcome.labels = climb_by_expansion(comm, task.objective, {}, outcome.labels, task.parts, score);
     describe_outcome(task, outcome);
@@ -154,10 +163,7 @@ PartitionCandidate labelled(const Comm& comm, const SearchTask& task, const Eige
         if (known.fixed[i] >= 0) outcome.labels[i] = known.fixed[i];
     }
     const auto score = [&](const std::vector<int>& labels) {
-        PartitionCandidate tried = outcome;
-        tried.labels = labels;
-        describe_labels(task, tried);
-        return tried.outcome.score + gain_of(known, labels);
+        return relabelled(task, outcome, labels).outcome.score + gain_of(known, labels);
     };
     outcome.labels = climb_by_expansion(comm, task.objective, known, outcome.labels, task.parts, score);
     describe_labels(task, outcome);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -99,6 +100,12 @@ std::vector<int> carry_labels_back(const FaceMap& map, const std::vector<int>& w
         labels[at(f)] = labels[at(source)];
     }
     return labels;
+}
+
+std::vector<int> main_working_faces(const FaceMap& map, const Eigen::VectorXd& working_area) {
+    std::vector<int> itself(map.input_face.size());
+    std::iota(itself.begin(), itself.end(), 0);
+    return carry_labels_back(map, itself, working_area);
 }
 
 }  // namespace coseg

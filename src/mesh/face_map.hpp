@@ -35,4 +35,8 @@ struct FaceMap {
 std::vector<int> carry_labels_back(const FaceMap& map, const std::vector<int>& working_labels,
                                    const Eigen::VectorXd& working_area);
 
+/// For each input face the working face that has most of its area, or the one that it takes its label from.
+/// Arguments and errors as above.
+std::vector<int> main_working_faces(const FaceMap& map, const Eigen::VectorXd& working_area);
+
 }  // namespace coseg
