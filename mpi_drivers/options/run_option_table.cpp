@@ -423,8 +423,11 @@ void RunOptionTable::add_choice() {
          "alone: no coefficients, adjacency or choice)"},
         partition.method);
     add({"refine", Affects::output, partition_group,
-         "Boundaries between parts moved into creases by fuzzy cuts in a strip of 10 triangles: none, fuzzy "
-         "(Katz and Tal 2003), or held (what is far from the boundary is held by its part)"},
+         "Boundaries between parts moved by fuzzy cuts: none; fuzzy (Katz and Tal 2003, within 10 "
+         "triangles); held "
+         "(what is far from the boundary is held by its part); or scored (likewise, and faces prefer the "
+         "part "
+         "that they look like in other meshes)"},
         options_.output.refine);
     add_switch({"places", Affects::cut, partition_group,
                 "With --choose: cuts with links weighed by where their patches lie among those tried, for "

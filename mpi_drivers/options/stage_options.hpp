@@ -154,18 +154,22 @@ struct PartitionOptions {
 /// The way in which boundaries between parts are moved into creases.
 enum class RefineMode {
     none,
-    fuzzy,  ///< fuzzy cuts (Katz and Tal 2003)
-    held,   ///< fuzzy cuts in which faces far from the boundary are held by their part
+    fuzzy,   ///< fuzzy cuts (Katz and Tal 2003)
+    held,    ///< fuzzy cuts in which faces far from the boundary are held by their part
+    scored,  ///< likewise, and faces prefer the part that they look like in the other meshes
 };
-constexpr std::array<EnumName<RefineMode>, 3> enum_names(RefineMode /*type*/) {
-    return {{{RefineMode::none, "none"}, {RefineMode::fuzzy, "fuzzy"}, {RefineMode::held, "held"}}};
+constexpr std::array<EnumName<RefineMode>, 4> enum_names(RefineMode /*type*/) {
+    return {{{RefineMode::none, "none"},
+             {RefineMode::fuzzy, "fuzzy"},
+             {RefineMode::held, "held"},
+             {RefineMode::scored, "scored"}}};
 }
 
 /// What a run leaves in its folder.
 struct OutputOptions {
     std::string folder;
     bool force = false;  ///< earlier results in the folder are replaced
-    RefineMode refine = RefineMode::held;
+    RefineMode refine = RefineMode::scored;
     bool keep_features = false;
     bool keep_model = true;
     bool sheet = true;

@@ -87,7 +87,7 @@ PartitionInput partition_input(const Collection& collection, PatchFeatures featu
                                const ExampleLabels& examples) {
     std::vector<ChoiceDescriptor> choice = choice_descriptors(features, options);
     FeatureMatrices clustered;
-    if (options.method == PartitionMethod::diffusion || !examples.empty())
+    if (options.method == PartitionMethod::diffusion || options.choose || !examples.empty())
         clustered = std::move(features.histograms);
     return {.collection = collection,
             .coefficients = coefficients,

@@ -62,15 +62,39 @@ void keep_given(const std::vector<int>& given, std::vector<int>& part_of_input_f
 }
 
 /// How far a crease may draw a boundary, in units of sqrt(area of the mesh): a sixth of the side of a patch.
-constexpr double boundary_reach = 0.025;
+constexpr double crease_reach = 0.025;
+/// How far scores may: two thirds of the side of a patch.
+constexpr double score_reach = 0.1;
+/// Of the scores against the length of boundaries, see score_costs.
+constexpr double score_weight = 20.0;
+/// Triangles from a boundary that scores may move. The reach ends most moves long before.
+constexpr int score_strip = 60;
 
-std::vector<int> refined(const MeshDescription& mesh, const std::vector<int>& part_of_face,
-                         RefineMode refinement) {
+/// K x faces: the mean over the over-segmentations of the scores of the face's patches.
+Eigen::MatrixXd scores_of_faces(const MeshDescription& mesh, const PatchNumbering& numbering,
+                                const Eigen::MatrixXf& of_patches) {
+    const auto faces = static_cast<Eigen::Index>(mesh.patches.front().size());
+    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(of_patches.rows(), faces);
+    for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
+        const int first = numbering.first(mesh.mesh, static_cast<int>(s));
+        for (Eigen::Index f = 0; f < faces; ++f)
+            scores.col(f) += of_patches.col(first + mesh.patches[s][at(f)]).cast<double>();
+    }
+    return scores / static_cast<double>(mesh.patches.size());
+}
+
+std::vector<int> refined(const MeshDescription& mesh, const PatchNumbering& numbering, const CutResult& cut,
+                         const std::vector<int>& part_of_face, int parts, RefineMode refinement) {
+    const auto holding = [&](double reach) {
+        return holding_costs(mesh.graph, mesh.geometry, part_of_face, parts, reach);
+    };
     if (refinement == RefineMode::none) return part_of_face;
-    std::vector<double> holding;
-    if (refinement == RefineMode::held)
-        holding = holding_costs(mesh.graph, mesh.geometry, part_of_face, boundary_reach);
-    return fuzzy_cut(mesh.graph, part_of_face, {}, holding);
+    if (refinement == RefineMode::fuzzy) return fuzzy_cut(mesh.graph, part_of_face);
+    if (refinement == RefineMode::held || cut.scores.size() == 0)
+        return fuzzy_cut(mesh.graph, part_of_face, {}, holding(crease_reach));
+    const Eigen::MatrixXd scores = scores_of_faces(mesh, numbering, cut.scores);
+    return fuzzy_cut(mesh.graph, part_of_face, {.strip_width = score_strip},
+                     holding(score_reach) + score_weight * score_costs(mesh.graph, mesh.geometry, scores));
 }
 
 }  // namespace
@@ -84,7 +108,8 @@ std::vector<MeshLabels> label_faces(const Collection& collection, const CutResul
         const MeshDescription& mesh = collection.local[k];
         const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, cut.part_of_patch);
         const std::vector<int> part_of_face =
-            refined(mesh, vote_face_labels(mesh.patches, part_of, parts, mesh.graph), refine);
+            refined(mesh, collection.numbering, cut,
+                    vote_face_labels(mesh.patches, part_of, parts, mesh.graph), parts, refine);
         std::vector<int> part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area);
         std::vector<float> confidence = confidence_of_faces(mesh, collection.numbering, cut, part, parts);
         if (!given.empty()) keep_given(given[k], part, confidence);

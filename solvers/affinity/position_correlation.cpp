@@ -110,4 +110,9 @@ void weigh_by_position(const PositionFrame& frame, const Eigen::Matrix3Xd& posit
     }
 }
 
+Eigen::Matrix3Xd correlated_places(const PositionFrame& frame, const Eigen::Matrix3Xd& positions) {
+    const Eigen::Vector3d scale = frame.correlation / std::sqrt(3.0);
+    return scale.asDiagonal() * (frame.directions.transpose() * (positions.colwise() - frame.mean));
+}
+
 }  // namespace coseg

@@ -26,4 +26,9 @@ PositionFrame position_frame(const Comm& comm, const SparseRows& links, const Ei
 void weigh_by_position(const PositionFrame& frame, const Eigen::Matrix3Xd& positions,
                        const std::vector<int>& mesh_of, SparseRows& links);
 
+/// 3 x N: the coordinates of the positions in the frame, times their correlations over sqrt(3): places
+/// count as far as shapes stand alike, and all three as much as one coordinate of spread 1. `positions` as
+/// above.
+Eigen::Matrix3Xd correlated_places(const PositionFrame& frame, const Eigen::Matrix3Xd& positions);
+
 }  // namespace coseg

@@ -111,35 +111,26 @@ std::vector<int> strip_faces(const DualGraph& graph, const std::vector<int>& lab
     return strip;
 }
 
-/// The labels that faces came with, and the costs of leaving them.
-struct Holding {
-    const std::vector<int>& label;
-    const std::vector<double>& cost;  // empty: nothing
-
-    [[nodiscard]] double of(int face, int kept) const {
-        const auto f = at(face);
-        return cost.empty() || label[f] != kept ? 0.0 : cost[f];
-    }
-};
-
-double cost_of_leaving(const Holding& holding, const std::vector<int>& now) {
+double cost_of_labels(const Eigen::MatrixXd& costs, const std::vector<int>& labels) {
     double sum = 0.0;
-    for (std::size_t f = 0; f < holding.cost.size(); ++f)
-        sum += now[f] == holding.label[f] ? 0.0 : holding.cost[f];
+    for (Eigen::Index f = 0; f < costs.cols(); ++f) sum += costs(labels[at(f)], f);
     return sum;
 }
 
 /// Labels of the strip's faces after the cut, in the strip's order.
 std::vector<int> cut_strip(const DualGraph& graph, const std::vector<double>& capacity,
-                           const std::vector<int>& label, const Holding& holding,
+                           const std::vector<int>& label, const Eigen::MatrixXd& costs,
                            const std::vector<int>& strip, LabelPair pair) {
     std::vector<int> node(label.size(), -1);
     for (std::size_t k = 0; k < strip.size(); ++k) node[at(strip[k])] = static_cast<int>(k);
     std::vector<double> to_a(strip.size(), 0.0), to_b(strip.size(), 0.0);
     std::vector<CutArc> arcs;
     for (std::size_t k = 0; k < strip.size(); ++k) {
-        to_a[k] = holding.of(strip[k], pair.first);
-        to_b[k] = holding.of(strip[k], pair.second);
+        if (costs.size() > 0) {
+            const double excess = costs(pair.second, strip[k]) - costs(pair.first, strip[k]);
+            to_a[k] = std::max(0.0, excess);
+            to_b[k] = std::max(0.0, -excess);
+        }
         for_each_neighbor(graph, strip[k], [&](int e, int other) {
             const double c = capacity[at(e)];
             const int other_node = node[at(other)];
@@ -234,24 +225,23 @@ double boundary_capacity(const DualGraph& graph, const std::vector<double>& capa
 }
 
 std::vector<int> fuzzy_cut(const DualGraph& graph, const std::vector<int>& label,
-                           const FuzzyCutOptions& options, const std::vector<double>& holding) {
-    if (!holding.empty() && holding.size() != label.size())
-        throw Error(ExitCode::internal, "a fuzzy cut needs one holding cost a face");
+                           const FuzzyCutOptions& options, const Eigen::MatrixXd& costs) {
+    if (costs.size() > 0 && costs.cols() != static_cast<Eigen::Index>(label.size()))
+        throw Error(ExitCode::internal, "a fuzzy cut needs one column of costs a face");
     if (options.strip_width < 0 || !(options.convex_weight > 0.0)) {
         throw Error(ExitCode::usage,
                     "a fuzzy cut needs a strip of at least 0 triangles and a convex weight above 0");
     }
     const std::vector<double> capacity = fuzzy_cut_capacities(graph, options);
     const std::vector<char> movable = movable_faces(graph, label, options.strip_width);
-    const Holding held{label, holding};
     std::vector<int> refined = label;
     const auto cost = [&](const std::vector<int>& labels) {
-        return boundary_capacity(graph, capacity, labels) + cost_of_leaving(held, labels);
+        return boundary_capacity(graph, capacity, labels) + cost_of_labels(costs, labels);
     };
     for (const LabelPair& pair : touching_labels(graph, label)) {
         const std::vector<int> strip = strip_faces(graph, refined, movable, pair, options.strip_width);
         if (strip.empty()) continue;
-        const std::vector<int> cut = cut_strip(graph, capacity, refined, held, strip, pair);
+        const std::vector<int> cut = cut_strip(graph, capacity, refined, costs, strip, pair);
         std::vector<int> candidate = refined;
         for (std::size_t k = 0; k < strip.size(); ++k) candidate[at(strip[k])] = cut[k];
         if (cost(refined) - cost(candidate) > smallest_gain) refined = std::move(candidate);
@@ -259,19 +249,28 @@ std::vector<int> fuzzy_cut(const DualGraph& graph, const std::vector<int>& label
     return refined;
 }
 
-std::vector<double> holding_costs(const DualGraph& graph, const FaceGeometry& geometry,
-                                  const std::vector<int>& label, double reach) {
+Eigen::MatrixXd holding_costs(const DualGraph& graph, const FaceGeometry& geometry,
+                              const std::vector<int>& label, int labels, double reach) {
     if (!(reach > 0.0)) throw Error(ExitCode::usage, "the reach of a refined boundary must be above 0");
     const double unit = mean_real_length(graph);
-    std::vector<double> cost(label.size(), 0.0);
+    Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(labels, static_cast<Eigen::Index>(label.size()));
     if (!(unit > 0.0)) return cost;
     // The cost of a strip from 0 to x is the integral of 2 t / reach^2 over it: its length times
     // (x / reach)^2.
     const std::vector<double> distance = surface_distance(graph, geometry, label, 2.0 * reach);
-    for (std::size_t f = 0; f < cost.size(); ++f) {
-        cost[f] = 2.0 * distance[f] * geometry.area[static_cast<Eigen::Index>(f)] / (reach * reach * unit);
+    for (Eigen::Index f = 0; f < cost.cols(); ++f) {
+        const double leaving = 2.0 * distance[at(f)] * geometry.area[f] / (reach * reach * unit);
+        cost.col(f).setConstant(leaving);
+        cost(label[at(f)], f) = 0.0;
     }
     return cost;
+}
+
+Eigen::MatrixXd score_costs(const DualGraph& graph, const FaceGeometry& geometry,
+                            const Eigen::MatrixXd& scores) {
+    const double unit = mean_real_length(graph) * std::sqrt(geometry.area.sum());
+    if (!(unit > 0.0)) return Eigen::MatrixXd::Zero(scores.rows(), scores.cols());
+    return scores * (-1.0 / unit) * geometry.area.matrix().asDiagonal();
 }
 
 }  // namespace coseg

@@ -1,6 +1,7 @@
 #pragma once
 // Moves boundaries between the parts of one mesh into creases nearby.
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "src/mesh/dual_graph.hpp"
@@ -30,8 +31,8 @@ double boundary_capacity(const DualGraph& graph, const std::vector<double>& capa
 /// by their distance to another label; a region thus keeps its core and never vanishes. boundary_capacity
 /// never rises. Throws Error(usage) for options out of range.
 ///
-/// `holding` is empty or has a value >= 0 per face, in units of capacity: the cost of leaving the label
-/// that the face came with (see holding_costs). The sum of boundary_capacity and these costs never rises.
+/// `costs` is empty or labels x F, in units of capacity: what each label costs each face (see holding_costs
+/// and score_costs). The sum of boundary_capacity and of the costs of the faces' labels never rises.
 ///
 /// Source: Katz and Tal 2003, "Hierarchical mesh decomposition using fuzzy clustering and cuts"
 /// (capacities).
@@ -39,16 +40,23 @@ double boundary_capacity(const DualGraph& graph, const std::vector<double>& capa
 /// Deviates: the strip is a number of triangles and not the faces of uncertain probability, it ends half
 /// way through thin regions, and all pairs of labels are cut one after the other. Capacities are multiplied
 /// by the edge's length; without it the cut would count triangles and run through the coarse ones. Without
-/// holding costs a strip of 10 triangles moves boundaries wherever a shorter one is near (see docs/method.md,
+/// costs a strip of 10 triangles moves boundaries wherever a shorter one is near (see docs/method.md,
 /// section 8).
 std::vector<int> fuzzy_cut(const DualGraph& graph, const std::vector<int>& label,
-                           const FuzzyCutOptions& options = {}, const std::vector<double>& holding = {});
+                           const FuzzyCutOptions& options = {}, const Eigen::MatrixXd& costs = {});
 
-/// For each face the cost of leaving its label, which grows with the distance d of the face to the nearest
-/// boundary of its label over the surface. To move a boundary of length l over a distance x costs l
-/// (x / reach)^2. A boundary thus goes no farther than `reach` even into the deepest crease, and stays where
-/// no crease is near. The unit is that of fuzzy_cut_capacities. reach > 0, in the mesh's unit.
-std::vector<double> holding_costs(const DualGraph& graph, const FaceGeometry& geometry,
-                                  const std::vector<int>& label, double reach);
+/// labels x F: for each face the cost of leaving its label for any other, which grows with the distance d of
+/// the face to the nearest boundary of its label over the surface. To move a boundary of length l over a
+/// distance x costs l (x / reach)^2. A boundary thus goes no farther than `reach` even into the deepest
+/// crease, and stays where no crease is near. The unit is that of fuzzy_cut_capacities. reach > 0, in the
+/// mesh's unit.
+Eigen::MatrixXd holding_costs(const DualGraph& graph, const FaceGeometry& geometry,
+                              const std::vector<int>& label, int labels, double reach);
+
+/// labels x F: minus the mean of `scores` (labels x F) over the area, in the unit of fuzzy_cut_capacities: a
+/// boundary of length l costs as much as a share of l / sqrt(area of the mesh) of the area that has a label
+/// whose score is lower by 1.
+Eigen::MatrixXd score_costs(const DualGraph& graph, const FaceGeometry& geometry,
+                            const Eigen::MatrixXd& scores);
 
 }  // namespace coseg

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solvers/affinity/position_correlation.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
@@ -35,14 +36,9 @@ std::vector<std::vector<Neighbor>> weighted_neighbors(const std::vector<GlobalPa
     return of;
 }
 
-/// 3 x N: coordinates in the frame times correlations. The third root makes the three together as large as
-/// one coordinate of spread 1.
 Eigen::Matrix3Xd places_of(const ScoreInput& input) {
-    const Eigen::Index patches = input.features.columns();
-    if (input.positions == nullptr) return Eigen::Matrix3Xd::Zero(3, patches);
-    const Eigen::Vector3d scale = input.frame.correlation / std::sqrt(3.0);
-    return scale.asDiagonal() *
-           (input.frame.directions.transpose() * (input.positions->colwise() - input.frame.mean));
+    if (input.positions == nullptr) return Eigen::Matrix3Xd::Zero(3, input.features.columns());
+    return correlated_places(input.frame, *input.positions);
 }
 
 /// The examples, one a column.

@@ -7,6 +7,7 @@
 #include "solvers/partition/cut_graphs.hpp"
 #include "solvers/partition/part_confidence.hpp"
 #include "solvers/partition/part_levels.hpp"
+#include "solvers/partition/part_scores.hpp"
 #include "solvers/partition/part_shares.hpp"
 #include "solvers/partition/partition_search.hpp"
 #include "solvers/partition/start_clusterings.hpp"
@@ -229,6 +230,10 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
                       ? found_alone(comm, evidence, options, std::move(clusters))
                       : found_by_examples(comm, input, {evidence, terms.frame}, options, std::move(clusters));
     CutResult result = described(input, options.parts, terms.frame, std::move(found));
+    if (options.starts.size() > 1 && input.features != nullptr && !input.features->empty())
+        result.scores = part_scores(
+            comm, {*input.features, input.positions, terms.frame, input.patch_area, input.mesh_of},
+            result.part_of_patch, options.parts);
     if (options.finest_level > 0 && has_all_parts(result)) {
         const std::vector<CutStart> fine = {
             {result.starts[at(result.chosen)].start.graph, std::max(options.finest_level, options.parts)}};

@@ -39,7 +39,9 @@ struct CutInput {
     const Eigen::Matrix3Xd* positions = nullptr;
     /// Labels that patches are said to have, the same on all ranks; null where there are no examples.
     const ExampleLabels* examples = nullptr;
-    const FeatureMatrices* features = nullptr;  ///< by which examples are followed; needed with examples
+    /// By which examples are followed, and parts scored; needed with examples, and where there are several
+    /// starts.
+    const FeatureMatrices* features = nullptr;
 };
 
 struct CutOptions {

@@ -1,6 +1,7 @@
 #pragma once
 // The result of cutting the patches of a collection into parts.
 
+#include <Eigen/Core>
 #include <tuple>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct CutResult {
     /// The probability that the part of a patch is right (solvers/partition/part_confidence.hpp); empty where
     /// the partition was not chosen from several starts.
     std::vector<double> confidence;
+    /// K x N: how well each part suits each patch (solvers/partition/part_scores.hpp); empty where the
+    /// partition was not chosen from several starts.
+    Eigen::MatrixXf scores;
     PartTree tree;                     ///< empty unless levels were asked for
     std::vector<StartOutcome> starts;  ///< in the order in which they were asked for
     /// of the chosen start's graph, descending, one for each of its clusters.
@@ -27,6 +31,7 @@ struct CutResult {
     static constexpr auto fields() {
         return std::tuple(field("part_of_patch", &CutResult::part_of_patch, Storage::compressed),
                           field("confidence", &CutResult::confidence, Storage::compressed),
+                          field("scores", &CutResult::scores, Storage::compressed),
                           field("part_share", &CutResult::part_share), field("tree", &CutResult::tree),
                           field("meshes_with_part", &CutResult::meshes_with_part),
                           field("starts", &CutResult::starts), field("eigenvalues", &CutResult::eigenvalues),

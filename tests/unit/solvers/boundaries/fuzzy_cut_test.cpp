@@ -180,8 +180,8 @@ TEST(FuzzyCut, HeldBoundariesGoNoFartherThanTheirReach) {
     const std::vector<int> start = below(p.geometry, 0.16);
     ASSERT_NE(start, waist);
     ASSERT_EQ(fuzzy_cut(p.graph, start), waist);
-    const std::vector<double> loose = holding_costs(p.graph, p.geometry, start, 10.0);
-    const std::vector<double> tight = holding_costs(p.graph, p.geometry, start, 0.01);
+    const Eigen::MatrixXd loose = holding_costs(p.graph, p.geometry, start, 2, 10.0);
+    const Eigen::MatrixXd tight = holding_costs(p.graph, p.geometry, start, 2, 0.01);
     EXPECT_EQ(fuzzy_cut(p.graph, start, {}, loose), waist);
     EXPECT_EQ(fuzzy_cut(p.graph, start, {}, tight), start);
 }
@@ -192,13 +192,13 @@ TEST(FuzzyCut, HoldingAStripCostsItsLengthTimesTheSquareOfItsShareOfTheReach) {
     for (Eigen::Index f = 0; f < p.geometry.area.size(); ++f)
         left.push_back(p.geometry.centroid(0, f) < 0.5 ? 0 : 1);
     const double reach = 0.2;
-    const std::vector<double> cost = holding_costs(p.graph, p.geometry, left, reach);
+    const Eigen::MatrixXd cost = holding_costs(p.graph, p.geometry, left, 2, reach);
     double length = 0.0;
     for (const DualEdge& e : p.graph.edges) length += e.length / static_cast<double>(p.graph.edges.size());
     double strip = 0.0;  // the faces up to 0.1 to the right of the boundary, which is 1 long
     for (Eigen::Index f = 0; f < p.geometry.area.size(); ++f) {
         const double x = p.geometry.centroid(0, f) - 0.5;
-        if (x > 0.0 && x < 0.1) strip += cost[static_cast<std::size_t>(f)] * length;
+        if (x > 0.0 && x < 0.1) strip += cost(0, f) * length;
     }
     // Distances over the triangles' centroids are up to a third longer than straight ones.
     EXPECT_GT(strip, 0.25);
@@ -214,20 +214,49 @@ TEST(FuzzyCut, HeldCutsNeverRaiseTheSumOfCapacityAndHolding) {
             label[f] =
                 (p.geometry.centroid(2, static_cast<Eigen::Index>(f)) < 0.3 * normal_of(seed) ? 0 : 1) +
                 (p.geometry.centroid(0, static_cast<Eigen::Index>(f)) < 0.0 ? 0 : 2);
-        const std::vector<double> holding = holding_costs(p.graph, p.geometry, label, 0.15);
+        const Eigen::MatrixXd holding = holding_costs(p.graph, p.geometry, label, 4, 0.15);
         const std::vector<int> cut = fuzzy_cut(p.graph, label, {}, holding);
         double left = 0.0;
-        for (std::size_t f = 0; f < label.size(); ++f) left += cut[f] == label[f] ? 0.0 : holding[f];
+        for (std::size_t f = 0; f < label.size(); ++f) left += holding(cut[f], static_cast<Eigen::Index>(f));
         EXPECT_LE(boundary_capacity(p.graph, capacity, cut) + left,
                   boundary_capacity(p.graph, capacity, label) + 1e-9);
     }
 }
 
-TEST(FuzzyCut, RefusesHoldingThatDoesNotFit) {
+TEST(FuzzyCut, ScoresMoveABoundaryToWhereTheyChange) {
+    const CutInput p = cut_input(test::flat_square(40));
+    const auto left_of = [&](double x) {
+        std::vector<int> label;
+        for (Eigen::Index f = 0; f < p.geometry.area.size(); ++f)
+            label.push_back(p.geometry.centroid(0, f) < x ? 0 : 1);
+        return label;
+    };
+    const std::vector<int> wanted = left_of(0.6);
+    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(2, p.geometry.area.size());
+    for (Eigen::Index f = 0; f < scores.cols(); ++f) scores(wanted[static_cast<std::size_t>(f)], f) = 1.0;
+    const std::vector<int> start = left_of(0.5);
+    const FuzzyCutOptions wide{.strip_width = 60};
+    const auto moved = [&](double reach, double weight) {
+        return fuzzy_cut(p.graph, start, wide,
+                         holding_costs(p.graph, p.geometry, start, 2, reach) +
+                             weight * score_costs(p.graph, p.geometry, scores));
+    };
+    EXPECT_EQ(moved(0.2, 50.0), wanted);  // a gain of 50 against a hold of at most 2 x .1 / .2^2 = 5
+    EXPECT_EQ(moved(0.2, 0.0), start);
+    EXPECT_EQ(moved(0.01, 50.0), start);  // past .0025 the hold of 2 d / .01^2 is more than 50
+    // The costs of all faces make the share of the area that has its score, times sqrt(area) over mean
+    // length.
+    double length = 0.0;
+    for (const DualEdge& e : p.graph.edges) length += e.length / static_cast<double>(p.graph.edges.size());
+    const Eigen::MatrixXd costs = score_costs(p.graph, p.geometry, scores);
+    EXPECT_NEAR(costs.row(0).sum(), -0.6 / length, 0.02 / length);
+}
+
+TEST(FuzzyCut, RefusesCostsThatDoNotFit) {
     const CutInput p = cut_input(test::sphere(0));
     const std::vector<int> label(20, 0);
-    EXPECT_THROW(fuzzy_cut(p.graph, label, {}, std::vector<double>(3, 1.0)), Error);
-    EXPECT_THROW(holding_costs(p.graph, p.geometry, label, 0.0), Error);
+    EXPECT_THROW(fuzzy_cut(p.graph, label, {}, Eigen::MatrixXd::Zero(1, 3)), Error);
+    EXPECT_THROW(holding_costs(p.graph, p.geometry, label, 1, 0.0), Error);
 }
 
 }  // namespace
