@@ -57,7 +57,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     // parts.
     const std::vector<OptionValue> values = option_values(options);
     RunCheckpoints checkpoints(comm, folders.state(), cut_option_text(values, petsc_arguments));
-    auto [optimisation, cut] = partition_stage(
+    auto [optimisation, cut, alignment] = partition_stage(
         comm, collection, std::move(features),
         {optimise, partition, examples.patches, checkpoints.tiles(), checkpoints.cuts()}, log);
     checkpoints.warn_of_damage(log);
@@ -72,7 +72,8 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     const RunOutcome outcome{collection,   ranges,
                              optimisation, cut,
                              labels,       partition.parts,
-                             values,       state_summary(comm, folders.state(), &checkpoints, collection)};
+                             values,       state_summary(comm, folders.state(), &checkpoints, collection),
+                             &alignment};
     std::string report;
     if (folders.keeps_results()) {
         if (output.keep_model)

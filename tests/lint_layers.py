@@ -53,6 +53,7 @@ ROOMS = {
     "solvers/oversegmentation": ("src/base", "src/mesh"),
     "solvers/kmeans": ("solvers/numeric", "src/base", "src/parallel", "src/histograms"),
     "solvers/affinity": ("solvers/subspace", "src/base", "src/parallel", "src/records"),
+    "solvers/alignment": ("solvers/subspace", "src/base", "src/parallel", "src/records"),
     "solvers/spectral": ("solvers/affinity", "solvers/petsc", "src/base", "src/parallel", "src/histograms"),
     "solvers/boundaries": ("src/base", "src/mesh"),
     "solvers/partition": ("solvers/affinity", "solvers/boundaries", "solvers/numeric", "solvers/spectral", "solvers/subspace",

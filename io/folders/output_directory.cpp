@@ -31,7 +31,7 @@ struct OwnFolder {
 constexpr std::array<OwnFolder, 3> own_folders{{{"labels", ".seg"}, {"patches", ".seg"}, {"ply", ".ply"}}};
 // Not every run has these; those of an earlier run show what is no longer there.
 constexpr OwnFolder picture_pages{"sheets", ".png"};
-constexpr std::array<const char*, 6> picture_files{"contact_sheet", "affinity.png",
+constexpr std::array<const char*, 7> picture_files{"contact_sheet", "affinity.png", "alignment.json",
                                                    "report.html",   "profile.txt",
                                                    "trace.json",  // what their names begin with
                                                    "model.h5"};

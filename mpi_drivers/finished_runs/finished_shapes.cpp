@@ -6,11 +6,13 @@
 #include <map>
 #include <numeric>
 
+#include "io/data_files/alignment_file.hpp"
 #include "io/data_files/label_file.hpp"
 #include "io/mesh_files/mesh_list.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/index.hpp"
 #include "src/mesh/polygon_area.hpp"
+#include "src/mesh/turned_polygons.hpp"
 #include "src/metrics/assignment.hpp"
 #include "src/parallel/exact_sum.hpp"
 
@@ -34,6 +36,17 @@ std::string path_of(const FinishedShape& shape, const std::map<std::string, std:
     std::string path = moved != paths.end() ? moved->second : shape.path;
     if (fs::exists(path)) return path;
     throw Error(ExitCode::input, path + ": the mesh is not where the run found it; say where with --meshes");
+}
+
+/// Of the run's shapes by name; none where they stand as in their files.
+std::map<std::string, Eigen::Matrix3d> rotations_of(const FinishedRun& run) {
+    std::map<std::string, Eigen::Matrix3d> rotations;
+    const std::string path = run.folder + "/alignment.json";
+    if (!fs::exists(path)) return rotations;
+    const AlignmentFile file = read_alignment(path);
+    if (!file.aligned) return rotations;
+    for (const AlignedShape& shape : file.shapes) rotations[shape.name] = shape.rotation;
+    return rotations;
 }
 
 LabelledMesh read_shape(const FinishedRun& run, int number, const FinishedInput& input,
@@ -91,11 +104,20 @@ std::vector<LabelledMesh> read_shapes(const Comm& comm, const FinishedRun& run, 
                                              "holds one NAME.seg for each mesh NAME");
         }
         const std::map<std::string, std::string> paths = paths_by_name(input.meshes);
+        const std::map<std::string, Eigen::Matrix3d> rotations = rotations_of(run);
         const int count = static_cast<int>(run.shapes.size());
-        for (int number = comm.rank(); number < count; number += comm.size())
+        for (int number = comm.rank(); number < count; number += comm.size()) {
             shapes.push_back(read_shape(run, number, input, paths));
+            const auto rotation = rotations.find(shapes.back().name);
+            if (rotation != rotations.end()) shapes.back().rotation = rotation->second;
+        }
     });
     return shapes;
+}
+
+PictureMesh standing_picture(const LabelledMesh& shape, const std::vector<Color>& color_of_face) {
+    if (shape.rotation.isIdentity(0.0)) return picture_mesh(shape.mesh, color_of_face);
+    return picture_mesh(turned(shape.mesh, shape.rotation), color_of_face);
 }
 
 std::vector<int> agree_on_truth(const Comm& comm, const std::vector<LabelledMesh>& shapes, int parts) {

@@ -1,6 +1,7 @@
 #pragma once
 // Reads back the shapes of a finished run with their labels, and shares them out among the ranks.
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "io/folders/finished_run.hpp"
 #include "src/mesh/polygon_mesh.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/pictures/picture_mesh.hpp"
 
 namespace coseg {
 
@@ -19,6 +21,8 @@ struct LabelledMesh {
     std::vector<int> part;   ///< per face of the file
     std::vector<int> patch;  ///< likewise
     std::vector<int> truth;  ///< likewise; empty where there is none
+    /// By which the run turned the shape to stand like the others (alignment.json); else the identity.
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
 };
 
 struct FinishedInput {
@@ -35,6 +39,9 @@ FinishedRun read_run(const Comm& comm, const std::string& folder);
 /// number of ranks. Collective; throws AgreedError(input) if a mesh is gone, or has another number of faces
 /// than it was segmented with.
 std::vector<LabelledMesh> read_shapes(const Comm& comm, const FinishedRun& run, const FinishedInput& input);
+
+/// The shape as it stands beside the others: turned by its rotation. One colour per face of the file.
+PictureMesh standing_picture(const LabelledMesh& shape, const std::vector<Color>& color_of_face);
 
 /// The true label for which each part stands, K entries. It is the one-to-one assignment that covers the most
 /// area over all shapes with truth (where each shape has the same weight), as in `coseg score`; -1 for a part

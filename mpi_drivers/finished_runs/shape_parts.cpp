@@ -30,7 +30,9 @@ ShapePieces pieces_of(const LabelledMesh& shape) {
     ShapePieces found;
     found.surface = part_surface(shape);
     found.piece = part_pieces(found.surface.mesh, found.surface.part);
-    found.pieces = pieces_of_shape(shape.number, found.surface.mesh, found.surface.part, found.piece);
+    TriMesh standing = found.surface.mesh;
+    standing.vertices = shape.rotation * standing.vertices;
+    found.pieces = pieces_of_shape(shape.number, standing, found.surface.part, found.piece);
     return found;
 }
 

@@ -29,7 +29,8 @@ std::vector<std::string> names_of_parts(const Comm& comm, const FinishedRun& run
                                         const std::string& file);
 
 /// For each shape of this rank, per face of its file: the number of its connected piece in its part, from 1,
-/// which agrees over the collection as piece_numbers.hpp says. Collective; throws AgreedError(input).
+/// which agrees over the collection as piece_numbers.hpp says, where the shapes stand as the run aligned
+/// them. Collective; throws AgreedError(input).
 std::vector<std::vector<int>> instances_of(const Comm& comm, const std::vector<LabelledMesh>& shapes);
 
 }  // namespace coseg

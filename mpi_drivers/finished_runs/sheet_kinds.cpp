@@ -28,7 +28,7 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 DrawnShape drawn(const LabelledMesh& shape, const std::vector<Color>& colors,
                  const std::string& remark = "") {
     return {shape.number, shape.name + (remark.empty() ? "" : "  " + remark),
-            picture_mesh(shape.mesh, colors)};
+            standing_picture(shape, colors)};
 }
 
 /// Per label of the truth the part that stands for it; labels without one get numbers behind the parts.

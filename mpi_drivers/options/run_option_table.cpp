@@ -183,6 +183,10 @@ void RunOptionTable::add_picture() {
         output.view.view)
         ->check(view_name);
     add({"up", Affects::output, picture_group, "The axis that points up: auto, x, y, z"}, output.view.up);
+    add({"align", Affects::cut, picture_group,
+         "Shapes that do not stand alike are turned by their parts, for pictures, places and "
+         "DIR/alignment.json: auto, off"},
+        options_.partition.align);
 }
 
 void RunOptionTable::add_results() {

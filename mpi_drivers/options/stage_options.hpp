@@ -132,6 +132,15 @@ constexpr std::array<EnumName<PartitionMethod>, 2> enum_names(PartitionMethod /*
     return {{{PartitionMethod::spectral, "spectral"}, {PartitionMethod::diffusion, "diffusion"}}};
 }
 
+/// Whether shapes are turned by their parts.
+enum class AlignMode {
+    automatic,  ///< where they do not stand alike in their files
+    off,
+};
+constexpr std::array<EnumName<AlignMode>, 2> enum_names(AlignMode /*type*/) {
+    return {{{AlignMode::automatic, "auto"}, {AlignMode::off, "off"}}};
+}
+
 /// Options of the stage that finds the part of every patch from coefficients.
 struct PartitionOptions {
     std::uint64_t seed = 1;  ///< of subsets, and of the diffusion map's clusters
@@ -149,6 +158,7 @@ struct PartitionOptions {
     bool choose = true;     ///< whether one of several starts is chosen
     bool levels = false;    ///< a tree of parts, coarser and finer than K
     bool places = true;     ///< starts whose links are weighed by where their patches lie
+    AlignMode align = AlignMode::automatic;
 };
 
 /// The way in which boundaries between parts are moved into creases.

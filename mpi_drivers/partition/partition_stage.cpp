@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "mpi_drivers/optimise/solution_output.hpp"
+#include "mpi_drivers/partition/alignment_stage.hpp"
 #include "mpi_drivers/partition/segment_stage.hpp"
 #include "mpi_drivers/partition/subset_stage.hpp"
+#include "solvers/alignment/shape_alignment.hpp"
 #include "solvers/partition/part_shares.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -49,6 +51,9 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     log.end(describe(optimisation));
     const int parts = task.partition.parts;
     if (parts > 1) refuse_empty_solution(optimisation.result, "the collection");
+    ShapeAlignment alignment =
+        alignment_stage(comm, collection, features, optimisation.result.coefficients, task.partition, log);
+    features.positions = turned_positions(alignment, features.positions, collection.numbering.mesh_of());
     const PartitionInput input = partition_input(
         collection, std::move(features), optimisation.result.coefficients, task.partition, task.examples);
     log.begin("cut");
@@ -56,7 +61,7 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     log.end(with_unit(static_cast<std::int64_t>(cut.starts.size()), "start", "starts") + ", " +
             std::to_string(parts) + " parts");
     warn_of_degenerate_parts(cut, parts, static_cast<int>(collection.meshes.size()), log);
-    return {std::move(optimisation), std::move(cut)};
+    return {std::move(optimisation), std::move(cut), std::move(alignment)};
 }
 
 Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
@@ -66,7 +71,9 @@ Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
     log.end(with_unit(outcome.optimisation.subsets, "subset", "subsets") + ", " +
             with_unit(outcome.optimisation.common_meshes, "common shape", "common shapes") + ", " +
             significant(100.0 * outcome.optimisation.subset_agreement) + " % agreement on these");
-    return {std::move(outcome.optimisation), std::move(outcome.cut)};
+    ShapeAlignment none;
+    none.reason = "subsets are not aligned";
+    return {std::move(outcome.optimisation), std::move(outcome.cut), std::move(none)};
 }
 
 Partitioned first_pass(const Comm& comm, const Collection& collection, PatchFeatures features,

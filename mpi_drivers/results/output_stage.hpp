@@ -14,6 +14,7 @@
 #include "mpi_drivers/results/label_stage.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
+#include "src/records/shape_alignment.hpp"
 
 namespace coseg {
 
@@ -32,6 +33,7 @@ struct RunOutcome {
     int parts;
     const std::vector<OptionValue>& options;
     std::optional<ReportState> state;
+    const ShapeAlignment* alignment = nullptr;  ///< of a run; null for an assignment
 };
 
 /// The text of report.json on rank 0. Collective.

@@ -2,18 +2,17 @@
 // Draws the contact sheet that a run leaves beside its labels.
 
 #include <string>
-#include <vector>
 
-#include "mpi_drivers/describe/mesh_stage.hpp"
-#include "mpi_drivers/results/label_stage.hpp"
+#include "mpi_drivers/results/output_stage.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/pictures/shape_view.hpp"
 
 namespace coseg {
 
-/// contact_sheet.png (src/pictures/contact_sheet.hpp) in the folder: every shape, coloured by part. Each rank
-/// draws the meshes that it holds. The same bytes on any number of ranks. Collective; throws AgreedError.
-void write_run_sheet(const Comm& comm, const std::string& folder, const Collection& collection,
-                     const std::vector<MeshLabels>& labels, int parts, const ViewChoice& choice);
+/// contact_sheet.png (src/pictures/contact_sheet.hpp) in the folder: every shape, coloured by part, and
+/// turned as the run aligned it. Each rank draws the meshes that it holds. The same bytes on any number of
+/// ranks. Collective; throws AgreedError.
+void write_run_sheet(const Comm& comm, const std::string& folder, const RunOutcome& outcome,
+                     const ViewChoice& choice);
 
 }  // namespace coseg

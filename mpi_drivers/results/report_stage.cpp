@@ -32,7 +32,7 @@ std::vector<bool> wrong_faces(const LabelledMesh& shape, const std::vector<int>&
 }
 
 std::string packed_shape(const LabelledMesh& shape, const std::vector<bool>& is_wrong, int most_faces) {
-    const PictureMesh picture = picture_mesh(shape.mesh, std::vector<Color>(shape.part.size()));
+    const PictureMesh picture = standing_picture(shape, std::vector<Color>(shape.part.size()));
     const ClusteredMesh coarse = clustered(picture.mesh, most_faces);
     std::vector<int> labels;
     std::vector<bool> wrong;
@@ -55,7 +55,7 @@ std::vector<PageShape> gathered(const Comm& comm, const std::vector<PageShape>& 
 std::vector<DrawnShape> undrawn(const std::vector<LabelledMesh>& shapes) {
     std::vector<DrawnShape> drawn;
     for (const LabelledMesh& shape : shapes)
-        drawn.push_back({shape.number, "", picture_mesh(shape.mesh, std::vector<Color>(shape.part.size()))});
+        drawn.push_back({shape.number, "", standing_picture(shape, std::vector<Color>(shape.part.size()))});
     return drawn;
 }
 

@@ -4,6 +4,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/reports/report_page.hpp"
+#include "mpi_drivers/results/alignment_output.hpp"
 #include "mpi_drivers/results/level_output.hpp"
 #include "mpi_drivers/results/picture_stage.hpp"
 #include "mpi_drivers/results/report_stage.hpp"
@@ -42,10 +43,12 @@ std::string write_results(const Comm& comm, const std::string& folder, const Run
     log.begin("write");
     write_meshes(comm, folder, outcome.collection, outcome.labels);
     write_levels(comm, folder, outcome.collection, outcome.cut, outcome.labels);
+    if (outcome.alignment != nullptr)
+        write_alignment_file(comm, folder, outcome.collection, *outcome.alignment);
     log.end(options.folder);
     if (options.sheet) {
         log.begin("picture");
-        write_run_sheet(comm, folder, outcome.collection, outcome.labels, outcome.parts, options.view);
+        write_run_sheet(comm, folder, outcome, options.view);
         write_affinity_picture(comm, folder, outcome);
         log.end(options.folder + "/contact_sheet.png");
     }

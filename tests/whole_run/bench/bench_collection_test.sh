@@ -13,7 +13,7 @@ small, large = result["rows"]
 assert (small["shapes"], large["shapes"]) == (4, 6), result
 for row in result["rows"]:
     assert row["parts"] == 2 and row["cpu"] > 0 and row["peak_mib"] > 20 and row["most_open_files"] > 3, row
-    assert [stage["stage"] for stage in row["stages"]][:5] == ["describe", "features", "optimise", "cut", "label"], row
+    assert [stage["stage"] for stage in row["stages"]][:6] == ["describe", "features", "optimise", "align", "cut", "label"], row
     assert 50 < row["accuracy"] <= 100 and row["bytes"]["report.json"] > 1000, row
 END
 grep -q '^| 6 table | ' "$work/collection.md" || { cat "$work/collection.md" >&2; fail "the table"; }

@@ -38,7 +38,7 @@ for one in speed["rounds"]:
 for name in ("wall_ratio", "cpu_ratio"):
     ratios = sorted(one[name] for one in speed["rounds"])
     assert speed[name] == {"min": ratios[0], "median": sum(ratios) / 2, "max": ratios[1]}
-assert list(speed["stages"]) == ["describe", "features", "optimise", "cut", "label", "write"]
+assert list(speed["stages"]) == ["describe", "features", "optimise", "align", "cut", "label", "write"]
 steps = speed["steps"]
 assert {"describe/read", "describe/shape_diameter", "describe/oversegmentation"} <= set(steps)
 for one in speed["rounds"]:

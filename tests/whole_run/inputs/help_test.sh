@@ -41,7 +41,7 @@ python3 - "$work/log" <<'END' || fail "--json-log"
 import json, sys
 events = [json.loads(line) for line in open(sys.argv[1])]
 stages = [e["stage"] for e in events if e["event"] == "stage"]
-assert stages == ["describe", "features", "optimise", "cut", "label", "write", "picture"], stages
+assert stages == ["describe", "features", "optimise", "align", "cut", "label", "write", "picture"], stages
 assert events[0]["steps"]["geodesics"] >= 0
 END
 "$COSEG" run --verbose "${quick[@]}" 2>"$work/log"

@@ -31,7 +31,7 @@ python3 - "$work/goblet" <<'END' || fail "what a run writes"
 import json, os, sys
 folder = sys.argv[1]
 report = json.load(open(f"{folder}/result/report.json"))
-assert [s["stage"] for s in report["stages"]] == ["describe", "features", "optimise", "cut", "label", "write", "picture"]
+assert [s["stage"] for s in report["stages"]] == ["describe", "features", "optimise", "align", "cut", "label", "write", "picture"]
 assert report["ranks"] == 2 and report["options"]["parts"] == 3 and report["options"]["seed"] == 1
 solved = report["optimisation"]
 assert solved["lower_bound"] <= solved["objective"] <= solved["objective_at_zero"]

@@ -55,6 +55,7 @@ const std::map<std::string, std::vector<std::string>> changes = {
     {"html", {"--no-html"}},
     {"view", {"--view=front"}},
     {"up", {"--up=z"}},
+    {"align", {"--align=off"}},
     {"weld", {"--weld=1e-4"}},
     {"remesh", {"--remesh=never"}},
     {"patches", {"--patches=51"}},

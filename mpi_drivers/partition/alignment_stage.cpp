@@ -1,0 +1,28 @@
+#include "mpi_drivers/partition/alignment_stage.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "solvers/alignment/shape_alignment.hpp"
+#include "src/base/seeded_random.hpp"
+
+namespace coseg {
+
+ShapeAlignment alignment_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                               const SparseCoefficients& coefficients, const PartitionOptions& options,
+                               StageLog& log) {
+    ShapeAlignment alignment;
+    alignment.reason = "it is switched off";
+    if (options.align == AlignMode::off || features.positions.cols() == 0) return alignment;
+    log.begin("align");
+    std::vector<std::uint64_t> keys;
+    for (const MeshFacts& mesh : collection.meshes) keys.push_back(hash_text(mesh.name));
+    const std::vector<int> mesh_of = collection.numbering.mesh_of();
+    alignment = align_shapes(comm, {coefficients, features.positions, mesh_of, features.patch_area,
+                                    std::move(keys), options.seed});
+    log.end((alignment.applied() ? "aligned: " : "as they stand: ") + alignment.reason);
+    return alignment;
+}
+
+}  // namespace coseg
