@@ -80,8 +80,8 @@ COSEG_VISIBLE Shape shape_of(const std::string& path);
 /// Not collective. Failure: 3.
 COSEG_VISIBLE Mesh load_mesh(const std::string& path);
 
-/// The mesh files that are meant by files, folders and @LISTs, sorted by name, as `coseg run` takes them. Not
-/// collective. Failure: 3.
+/// The mesh files that are meant by files, folders and lists (`@` and a path), sorted by name, as `coseg run`
+/// takes them. Not collective. Failure: 3.
 COSEG_VISIBLE std::vector<std::string> mesh_files(const std::vector<std::string>& arguments);
 
 /// A shape with known parts, as `coseg generate` makes them.
