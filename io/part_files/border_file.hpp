@@ -15,4 +15,8 @@ namespace coseg {
 void write_border_lines(const std::string& path, const TriMesh& mesh, const std::vector<BorderCurve>& curves,
                         const std::vector<std::string>& part_names);
 
+/// Writes the same curves as VTK poly lines, in an ASCII .vtp file with the arrays "part_a", "part_b" and
+/// "closed" of the lines. A closed curve names its first vertex again. Error(output) as atomic_file.hpp.
+void write_border_vtp(const std::string& path, const TriMesh& mesh, const std::vector<BorderCurve>& curves);
+
 }  // namespace coseg

@@ -32,6 +32,7 @@ MeasuredShape write_and_measure(const BorderExport& task, const LabelledMesh& sh
     const PartSurface surface = part_surface(shape);
     const std::vector<BorderCurve> curves = part_borders(surface.mesh, surface.part);
     write_border_lines(task.folder + "/" + shape.name + ".obj", surface.mesh, curves, task.part_names);
+    write_border_vtp(task.folder + "/" + shape.name + ".vtp", surface.mesh, curves);
     std::vector<std::vector<double>> values;
     if (!task.descriptors.empty()) values = shown_descriptors(task.run, shape, task.descriptors);
     const std::vector<double> areas = polygon_areas(shape.mesh);

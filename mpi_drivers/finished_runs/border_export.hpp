@@ -16,9 +16,9 @@ struct BorderExport {
     std::string folder;            ///< exists
 };
 
-/// Writes FOLDER/NAME.obj, the curves between the parts of each shape, and FOLDER/parts.csv and parts.json,
-/// the measures of all parts, in the units of the files. The same bytes on any number of ranks. Collective;
-/// throws AgreedError(input) or AgreedError(output).
+/// Writes FOLDER/NAME.obj and NAME.vtp, the curves between the parts of each shape, and FOLDER/parts.csv and
+/// parts.json, the measures of all parts, in the units of the files. The same bytes on any number of ranks.
+/// Collective; throws AgreedError(input) or AgreedError(output).
 void export_borders(const Comm& comm, const BorderExport& task);
 
 }  // namespace coseg
