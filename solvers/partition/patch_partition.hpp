@@ -68,7 +68,7 @@ CutResult described_partition(const std::vector<int>& labels, int parts, const s
 ///
 /// Up to one_rank_entries the affinity is gathered on every rank, the different graphs are shared out among
 /// the ranks, and each graph is cut by one rank alone. Above that number every rank keeps its rows, and all
-/// share the products of each eigenvalue problem. The result has the same bytes on any number of ranks, and
+/// ranks solve each eigenvalue problem together. The result has the same bytes on any number of ranks, and
 /// in both cases the same clusters.
 ///
 /// With examples the parts are their labels, 0 .. parts-1, and patches whose label is known have it. Labels

@@ -22,6 +22,7 @@ struct SpectralOptions {
 struct SpectralEmbedding {
     std::vector<int> rows;            ///< ascending; the others are set aside, see main_components
     std::vector<double> eigenvalues;  ///< descending, in [-1 - tau, 1]
+    std::vector<double> residuals;    ///< norms of the eigenpairs' residuals as estimated; 0 where known
     std::vector<double> degrees;      ///< per row of `rows`, > 0
     Eigen::MatrixXd coordinates;      ///< rows x eigenvalues; each column of norm sqrt(rows)
 };
@@ -43,8 +44,9 @@ inline constexpr int dense_rows = 128;
 /// over each mesh is 0 loses nothing. `mesh_of` is the mesh 0 .. M-1 of each patch; it may be empty where tau
 /// is 0.
 ///
-/// The ranks of `comm` share the products with the affinity, of which each holds its rows. The Krylov
-/// method itself runs on the root. The result is a function of the affinity alone and has the same bytes on
+/// Rows of the affinity, eigenvectors, basis and products are spread over the ranks of `comm`
+/// (leading_eigenpairs); at the end every rank has the coordinates. The result is a function of the affinity
+/// alone and has the same bytes on
 /// any number of ranks. Collective. Throws on all ranks: AgreedError(not_converged) with the residual
 /// reached, AgreedError(input) where no two patches have an affinity or fewer than `parts` patches take part.
 ///

@@ -1,6 +1,7 @@
 #include "src/parallel/exact_sum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -17,26 +18,8 @@ constexpr int range_bits = 12;
 constexpr int low_bits = 45;  // 2^45 times the number of ranks fits in 63 bits
 constexpr std::int64_t low_mask = (std::int64_t{1} << low_bits) - 1;
 
-constexpr int limb_bits = 32;
+constexpr unsigned limb_bits = 32;
 constexpr int smallest_exponent = 1074;  // the least double is 2^-1074
-constexpr std::size_t limbs_per_scalar = 68;
-
-/// Adds the 53-bit mantissa of `value` at its place; a limb overflows after 2^31 addends at the earliest.
-void add_exactly(std::span<std::int64_t> limbs, double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    const int biased = static_cast<int>((bits >> 52U) & 0x7ffU);
-    std::uint64_t mantissa = bits & ((std::uint64_t{1} << 52U) - 1);
-    if (biased != 0) mantissa |= std::uint64_t{1} << 52U;
-    const int place = biased == 0 ? 0 : biased - 1;
-    const auto first = at(place / limb_bits);
-    __extension__ typedef unsigned __int128 Wide;  // NOLINT(modernize-use-using)
-    Wide shifted = static_cast<Wide>(mantissa) << (place % limb_bits);
-    const bool negative = (bits >> 63U) != 0;
-    for (std::size_t k = first; shifted != 0; ++k, shifted >>= limb_bits) {
-        const auto digit = static_cast<std::int64_t>(static_cast<std::uint32_t>(shifted));
-        limbs[k] += negative ? -digit : digit;
-    }
-}
 
 void carry(std::span<std::int64_t> limbs) {
     for (std::size_t k = 0; k + 1 < limbs.size(); ++k) {
@@ -46,7 +29,8 @@ void carry(std::span<std::int64_t> limbs) {
     }
 }
 
-double round_limbs(std::span<std::int64_t> limbs) {
+/// `first`: the number of the lowest limb among those that cover all of double.
+double round_limbs(std::span<std::int64_t> limbs, std::size_t first) {
     carry(limbs);
     const bool negative = limbs.back() < 0;
     if (negative) {
@@ -56,7 +40,8 @@ double round_limbs(std::span<std::int64_t> limbs) {
     double sum = 0.0;
     for (std::size_t k = limbs.size(); k-- > 0;) {
         if (limbs[k] == 0) continue;
-        sum += std::ldexp(static_cast<double>(limbs[k]), limb_bits * static_cast<int>(k) - smallest_exponent);
+        sum += std::ldexp(static_cast<double>(limbs[k]),
+                          static_cast<int>(limb_bits * (first + k)) - smallest_exponent);
     }
     return negative ? -sum : sum;
 }
@@ -66,12 +51,24 @@ double round_limbs(std::span<std::int64_t> limbs) {
 ExactSum::ExactSum(std::size_t field_size, double field_scale, std::size_t scalars)
     : exponent_(std::ilogb(field_scale) + 1),
       ticks_per_unit_(std::ldexp(1.0, fraction_bits - exponent_)),
-      largest_addend_(std::ldexp(1.0, range_bits + exponent_)),
-      ticks_(field_size, 0),
-      limbs_(scalars * limbs_per_scalar, 0),
-      message_(1 + 2 * field_size + limbs_.size(), 0),
-      field_(field_size, 0.0),
-      scalars_(scalars, 0.0) {}
+      largest_addend_(std::ldexp(1.0, range_bits + exponent_)) {
+    set_sizes(field_size, scalars);
+}
+
+ExactSum::ExactSum(std::size_t scalars, LimbRange range) : ExactSum(0, 1.0, 0) {
+    range_ = range;
+    set_sizes(0, scalars);
+}
+
+ExactSum ExactSum::of_order_one(std::size_t scalars) { return {scalars, {.first = 28, .count = 8}}; }
+
+void ExactSum::set_sizes(std::size_t field_size, std::size_t scalars) {
+    ticks_.assign(field_size, 0);
+    limbs_.assign(scalars * range_.count, 0);
+    message_.assign(1 + 2 * field_size + limbs_.size(), 0);
+    field_.assign(field_size, 0.0);
+    scalars_.assign(scalars, 0.0);
+}
 
 void ExactSum::clear() {
     std::fill(ticks_.begin(), ticks_.end(), Ticks{0});
@@ -87,12 +84,44 @@ void ExactSum::add_field(std::size_t index, double value) {
     ticks_[index] += static_cast<Ticks>(value * ticks_per_unit_);
 }
 
+/// Adds the 53-bit mantissa of `value` at its place, in three limbs: 53 bits and a shift of at most 31 are
+/// fewer than 96. A limb overflows after 2^31 addends at the earliest.
+void ExactSum::add_limbs(std::size_t index, double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    const auto biased = static_cast<unsigned>((bits >> 52U) & 0x7ffU);
+    const std::uint64_t fraction = bits & ((std::uint64_t{1} << 52U) - 1);
+    const std::uint64_t mantissa = fraction | static_cast<std::uint64_t>(biased != 0) << 52U;
+    const unsigned place = biased == 0 ? 0 : biased - 1;
+    const unsigned shift = place % limb_bits;
+    const std::uint64_t low = mantissa << shift;
+    const std::uint64_t high = mantissa >> 1U >> (63U - shift);  // a shift by 64 is not defined
+    const std::array<std::uint64_t, 3> digits{low & 0xffffffffU, low >> 32U, high};
+    const std::int64_t sign = (bits >> 63U) != 0 ? -1 : 1;
+    std::int64_t* const limbs = limbs_.data() + index * range_.count;
+    const std::size_t first = place / limb_bits;
+    if (first >= range_.first && first + digits.size() <= range_.first + range_.count) {
+        std::int64_t* const at_place = limbs + (first - range_.first);
+        for (std::size_t k = 0; k < digits.size(); ++k)
+            at_place[k] += sign * static_cast<std::int64_t>(digits[k]);
+        return;
+    }
+    for (std::size_t k = 0; k < digits.size(); ++k) {
+        const std::size_t limb = first + k;
+        if (digits[k] == 0 || limb < range_.first) continue;
+        if (limb >= range_.first + range_.count) {
+            addend_overflowed_ = true;
+        } else {
+            limbs[limb - range_.first] += sign * static_cast<std::int64_t>(digits[k]);
+        }
+    }
+}
+
 void ExactSum::add_scalar(std::size_t index, double value) {
     if (!std::isfinite(value)) {
         addend_overflowed_ = true;
         return;
     }
-    add_exactly(std::span(limbs_).subspan(index * limbs_per_scalar, limbs_per_scalar), value);
+    add_limbs(index, value);
 }
 
 void ExactSum::pack() {
@@ -119,14 +148,14 @@ void ExactSum::unpack() {
     }
     const std::span<std::int64_t> limbs = std::span(message_).subspan(1 + 2 * ticks_.size());
     for (std::size_t k = 0; k < scalars_.size(); ++k) {
-        scalars_[k] = round_limbs(limbs.subspan(k * limbs_per_scalar, limbs_per_scalar));
+        scalars_[k] = round_limbs(limbs.subspan(k * range_.count, range_.count), range_.first);
     }
 }
 
-void ExactSum::reduce(const Comm& comm) {
+void ExactSum::reduce(MPI_Comm comm) {
     pack();
     in_messages(std::ssize(message_), [&](std::int64_t first, int count) {
-        MPI_Allreduce(MPI_IN_PLACE, message_.data() + first, count, MPI_INT64_T, MPI_SUM, comm.raw());
+        MPI_Allreduce(MPI_IN_PLACE, message_.data() + first, count, MPI_INT64_T, MPI_SUM, comm);
     });
     unpack();
 }

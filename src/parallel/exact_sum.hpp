@@ -22,13 +22,18 @@ class ExactSum {
     ExactSum(std::size_t field_size, double field_scale, std::size_t scalars);
     /// Sums of scalars only.
     explicit ExactSum(std::size_t scalars) : ExactSum(0, 1.0, scalars) {}
+    /// Scalars only, for many sums of order 1 that are often reduced, such as inner products of unit vectors:
+    /// 64 bytes a scalar. What an addend has below 2^-178 is cut off, and one beyond 2^77 makes overflowed()
+    /// true.
+    static ExactSum of_order_one(std::size_t scalars);
 
     void clear();
     void add_field(std::size_t index, double value);
     void add_scalar(std::size_t index, double value);
 
     /// One reduction over the ranks. Collective; every rank must have been given the same sizes and scale.
-    void reduce(const Comm& comm);
+    void reduce(const Comm& comm) { reduce(comm.raw()); }
+    void reduce(MPI_Comm comm);
 
     /// Valid after reduce(), on all ranks.
     [[nodiscard]] const std::vector<double>& field() const noexcept { return field_; }
@@ -39,6 +44,14 @@ class ExactSum {
 
   private:
     __extension__ typedef __int128 Ticks;  // NOLINT(modernize-use-using): an alias cannot be an extension
+    /// The limbs that are kept of a scalar: signed digits of 32 bits, of 68 that cover all of double.
+    struct LimbRange {
+        std::size_t first = 0;
+        std::size_t count = 68;
+    };
+    ExactSum(std::size_t scalars, LimbRange range);
+    void set_sizes(std::size_t field_size, std::size_t scalars);
+    void add_limbs(std::size_t index, double value);
     void pack();
     void unpack();
 
@@ -47,7 +60,8 @@ class ExactSum {
     double largest_addend_;
     bool addend_overflowed_ = false;
     std::vector<Ticks> ticks_;
-    std::vector<std::int64_t> limbs_;    ///< per scalar `limbs_per_scalar` signed digits of 32 bits
+    LimbRange range_;
+    std::vector<std::int64_t> limbs_;    ///< per scalar range_.count
     std::vector<std::int64_t> message_;  ///< overflow count, then high and low words of the field, then limbs
     std::vector<double> field_;
     std::vector<double> scalars_;

@@ -113,5 +113,28 @@ TEST(ExactSum, SameBitsOnAnyNumberOfRanks) {
     EXPECT_EQ(shared.field(), alone.field());
 }
 
+TEST(ExactSum, OfOrderOneKeepsWhatMattersBesideOne) {
+    const Comm comm(MPI_COMM_WORLD);
+    ExactSum sum = ExactSum::of_order_one(3);
+    sum.add_scalar(0, 1.0);
+    sum.add_scalar(0, -std::ldexp(1.0, -170));
+    sum.add_scalar(0, -1.0);
+    sum.add_scalar(1, std::ldexp(1.0, -200));
+    sum.add_scalar(2, std::ldexp(-1.5, 76));
+    sum.reduce(comm);
+    EXPECT_FALSE(sum.overflowed());
+    EXPECT_EQ(sum.scalar(0), -comm.size() * std::ldexp(1.0, -170));
+    EXPECT_EQ(sum.scalar(1), 0.0);
+    EXPECT_EQ(sum.scalar(2), comm.size() * std::ldexp(-1.5, 76));
+}
+
+TEST(ExactSum, OfOrderOneSaysWhatIsTooLarge) {
+    const Comm comm(MPI_COMM_WORLD);
+    ExactSum sum = ExactSum::of_order_one(1);
+    if (comm.is_root()) sum.add_scalar(0, std::ldexp(1.0, 79));
+    sum.reduce(comm);
+    EXPECT_TRUE(sum.overflowed());
+}
+
 }  // namespace
 }  // namespace coseg

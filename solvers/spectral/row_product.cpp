@@ -1,0 +1,171 @@
+#include "solvers/spectral/row_product.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+#include "solvers/spectral/exact_vectors.hpp"
+#include "src/base/index.hpp"
+
+namespace coseg {
+
+namespace {
+
+using IndexSet = PetscHandle<IS, ISDestroy>;
+
+PetscErrorCode multiply_shell(Mat matrix, Vec x, Vec y) {
+    void* product = nullptr;
+    const PetscErrorCode code = MatShellGetContext(matrix, static_cast<void*>(&product));
+    return code != 0 ? code : static_cast<RowProduct*>(product)->multiply(x, y);
+}
+
+PetscErrorCode create_vectors(Mat matrix, Vec* right, Vec* left) {
+    void* product = nullptr;
+    PetscErrorCode code = MatShellGetContext(matrix, static_cast<void*>(&product));
+    const Vec like = code == 0 ? static_cast<RowProduct*>(product)->vector().get() : nullptr;
+    if (code == 0 && right != nullptr) code = VecDuplicate(like, right);
+    if (code == 0 && left != nullptr) code = VecDuplicate(like, left);
+    return code;
+}
+
+/// Whether a rank asks for an entry: its rows have it as a column, or it belongs to one of their groups.
+std::vector<char> asked_rows(const SparseRows& matrix, const GroupBalance& balance) {
+    std::vector<char> asked(at(matrix.size), 0);
+    for (const int column : matrix.columns) asked[at(column)] = 1;
+    if (balance.weight == 0.0) return asked;
+    std::vector<char> own_group(at(*std::max_element(balance.group.begin(), balance.group.end())) + 1, 0);
+    for (auto i = matrix.rows.begin; i < matrix.rows.end; ++i) own_group[at(balance.group[at(i)])] = 1;
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        if (own_group[at(balance.group[i])] != 0) asked[i] = 1;
+    }
+    return asked;
+}
+
+}  // namespace
+
+RowProduct::RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance)
+    : size_(matrix.size), matrix_(std::move(matrix)), vector_(exact_vector(comm, size_)) {
+    number_columns(comm, balance);
+    const PetscInt rows = petsc_int(matrix_.local_rows(), "rows");
+    const PetscInt all = petsc_int(size_, "patches");
+    check(MatCreateShell(comm.raw(), rows, rows, all, all, this, shell_.out()), "MatCreateShell");
+    check(MatShellSetOperation(shell_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)),
+          "MatShellSetOperation");
+    check(MatShellSetOperation(shell_.get(), MATOP_CREATE_VECS, reinterpret_cast<void (*)()>(create_vectors)),
+          "MatShellSetOperation");
+    check(MatSetOption(shell_.get(), MAT_SYMMETRIC, PETSC_TRUE), "MatSetOption");
+}
+
+/// On one rank columns are as they are. Otherwise each becomes its place among the entries asked for, which
+/// keeps the order of a row's columns.
+void RowProduct::number_columns(const Comm& comm, const GroupBalance& balance) {
+    std::vector<int> place(at(size_));
+    if (comm.size() == 1) {
+        std::iota(place.begin(), place.end(), 0);
+    } else {
+        const std::vector<char> asked = asked_rows(matrix_, balance);
+        std::vector<PetscInt> rows;
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            place[i] = static_cast<int>(rows.size());
+            if (asked[i] != 0) rows.push_back(static_cast<PetscInt>(i));
+        }
+        for (int& column : matrix_.columns) column = place[at(column)];
+        const auto count = static_cast<PetscInt>(rows.size());
+        IndexSet from;
+        check(VecCreateSeq(PETSC_COMM_SELF, count, needed_.out()), "VecCreateSeq");
+        check(ISCreateGeneral(PETSC_COMM_SELF, count, rows.data(), PETSC_COPY_VALUES, from.out()),
+              "ISCreateGeneral");
+        check(VecScatterCreate(vector_.get(), from.get(), needed_.get(), nullptr, scatter_.out()),
+              "VecScatterCreate");
+    }
+    if (balance.weight != 0.0) number_groups(balance, place);
+}
+
+/// The groups of this rank's rows, numbered 0, 1, ... in the order of their names.
+void RowProduct::number_groups(const GroupBalance& balance, const std::vector<int>& place_of_row) {
+    const auto begin = at(matrix_.rows.begin);
+    const auto end = at(matrix_.rows.end);
+    groups_.weight = balance.weight;
+    std::vector<int> names(balance.group.begin() + matrix_.rows.begin,
+                           balance.group.begin() + matrix_.rows.end);
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    std::vector<std::vector<GroupRow>> rows(names.size());
+    for (std::size_t i = 0; i < balance.group.size(); ++i) {
+        const auto name = std::lower_bound(names.begin(), names.end(), balance.group[i]);
+        if (name == names.end() || *name != balance.group[i]) continue;
+        const auto number = name - names.begin();
+        rows[at(number)].push_back({place_of_row[i], balance.indicator[i]});
+        if (i < begin || i >= end) continue;
+        groups_.of_row.push_back(static_cast<int>(number));
+        groups_.indicator.push_back(balance.indicator[i]);
+    }
+    for (const std::vector<GroupRow>& group : rows) {
+        groups_.rows.insert(groups_.rows.end(), group.begin(), group.end());
+        groups_.offsets.push_back(groups_.rows.size());
+    }
+    groups_.sums.resize(names.size());
+}
+
+/// Adds the row's products from entry `skip` of the row on.
+double RowProduct::add_products(std::size_t row, std::int64_t skip, double sum, const double* x) const {
+    for (auto k = at(matrix_.offsets[row] + skip); k < at(matrix_.offsets[row + 1]); ++k)
+        sum += matrix_.values[k] * x[matrix_.columns[k]];
+    return sum;
+}
+
+/// Side by side as far as the shortest of the rows goes: one sum's additions wait for each other.
+void RowProduct::multiply_four_rows(std::size_t first, const double* x, double* y) const {
+    std::array<const double*, 4> values{};
+    std::array<const int*, 4> columns{};
+    std::array<double, 4> sums{};
+    std::int64_t shared = matrix_.size;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const std::int64_t begin = matrix_.offsets[first + i];
+        values[i] = matrix_.values.data() + begin;
+        columns[i] = matrix_.columns.data() + begin;
+        shared = std::min(shared, matrix_.offsets[first + i + 1] - begin);
+    }
+    for (std::int64_t k = 0; k < shared; ++k) {
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i][k] * x[columns[i][k]];
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) y[first + i] = add_products(first + i, shared, sums[i], x);
+}
+
+void RowProduct::multiply_rows(const double* x, double* y) const {
+    const auto rows = at(matrix_.local_rows());
+    const std::size_t whole = rows - rows % 4;
+    for (std::size_t r = 0; r < whole; r += 4) multiply_four_rows(r, x, y);
+    for (std::size_t r = whole; r < rows; ++r) y[r] = add_products(r, 0, 0.0, x);
+}
+
+void RowProduct::subtract_balance(const double* x, double* y) {
+    for (std::size_t g = 0; g < groups_.sums.size(); ++g) {
+        groups_.sums[g] = 0.0;
+        for (auto k = groups_.offsets[g]; k < groups_.offsets[g + 1]; ++k)
+            groups_.sums[g] += groups_.rows[k].indicator * x[groups_.rows[k].place];
+    }
+    for (std::size_t i = 0; i < groups_.of_row.size(); ++i)
+        y[i] -= groups_.weight * groups_.indicator[i] * groups_.sums[at(groups_.of_row[i])];
+}
+
+PetscErrorCode RowProduct::multiply(Vec x, Vec y) {
+    ++count_;
+    const bool is_sent = needed_.get() != nullptr;
+    const Vec source = is_sent ? needed_.get() : x;
+    PetscErrorCode code = 0;
+    if (is_sent) code = VecScatterBegin(scatter_.get(), x, source, INSERT_VALUES, SCATTER_FORWARD);
+    if (is_sent && code == 0) code = VecScatterEnd(scatter_.get(), x, source, INSERT_VALUES, SCATTER_FORWARD);
+    const PetscScalar* from = nullptr;
+    PetscScalar* to = nullptr;
+    if (code == 0) code = VecGetArrayRead(source, &from);
+    if (code == 0) code = VecGetArrayWrite(y, &to);
+    if (code != 0) return code;
+    multiply_rows(from, to);
+    subtract_balance(from, to);
+    code = VecRestoreArrayWrite(y, &to);
+    return code != 0 ? code : VecRestoreArrayRead(source, &from);
+}
+
+}  // namespace coseg
