@@ -5,6 +5,7 @@
 #include "mpi_drivers/describe/face_features.hpp"
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
+#include "mpi_drivers/editing/correction_stage.hpp"
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "mpi_drivers/options/named_options.hpp"
 #include "mpi_drivers/partition/example_stage.hpp"
@@ -14,6 +15,7 @@
 #include "mpi_drivers/results/profile.hpp"
 #include "mpi_drivers/results/run_folders.hpp"
 #include "mpi_drivers/results/run_results.hpp"
+#include "solvers/alignment/shape_alignment.hpp"
 
 namespace coseg {
 
@@ -26,14 +28,20 @@ void co_segment(const Comm& comm, const RunOptions& options,
     refuse_unreached_gap(done.optimisation.result, options.optimise.gap, options.output.folder);
 }
 
-CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, const RunOptions& given,
-                       const std::vector<std::string>& petsc_arguments, StageLog& log) {
-    const RunOptions options = with_parts_of_examples(comm, given);
-    const auto& [preset, description, feature_options, optimise, partition, output, process] = options;
-    refuse_contradictions(options);
-    if (output.profile) begin_profile(log);
-    RunFolders folders(comm, output, process);
+namespace {
 
+/// The stages up to the cut, with what is written of them on the way.
+struct PartitionedRun {
+    BasePartition base;
+    std::vector<NamedRange> ranges;
+    ModelPatches model;
+    ShapeAlignment alignment;
+};
+
+PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entries, const RunOptions& options,
+                           const RunFolders& folders, RunCheckpoints& checkpoints, bool keeps_features,
+                           StageLog& log) {
+    const auto& [preset, description, feature_options, optimise, partition, output, process] = options;
     // Every mesh by itself: patches by over-segmentation, and the descriptors of its faces.
     auto [collection, descriptors] =
         describe_collection(comm, folders.meshes_outside(comm, entries, process.inputs),
@@ -46,40 +54,88 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
         feature_options, nullptr, log);
     if (output.keep_features && folders.keeps_results())
         write_features(comm, collection, features, folders.results() + "/features.h5");
-    const std::vector<NamedRange> ranges = features.ranges;
+    std::vector<NamedRange> ranges = features.ranges;
     ModelPatches model;
     if (output.keep_model && (comm.is_root() || entries != nullptr))
         model = model_patches(collection, features, optimise.seed);
     folders.end_if_asked(comm, "all meshes");
-    const GivenLabels examples = read_examples(comm, collection, partition, log);
+    GivenLabels examples = read_examples(comm, collection, partition, log);
 
     // Equations (6) to (8): the patches' coefficients over each other, their affinity, and its cut into
     // parts.
-    const std::vector<OptionValue> values = option_values(options);
-    RunCheckpoints checkpoints(comm, folders.state(), cut_option_text(values, petsc_arguments));
+    PatchFeatures kept;
+    if (keeps_features) kept = features;
     auto [optimisation, cut, alignment] = partition_stage(
         comm, collection, std::move(features),
         {optimise, partition, examples.patches, checkpoints.tiles(), checkpoints.cuts()}, log);
+    if (keeps_features)
+        kept.positions = turned_positions(alignment, kept.positions, collection.numbering.mesh_of());
     checkpoints.warn_of_damage(log);
     folders.end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
+    return {{options, std::move(collection), std::move(kept), std::move(optimisation), std::move(cut),
+             std::move(examples)},
+            std::move(ranges),
+            std::move(model),
+            std::move(alignment)};
+}
+
+}  // namespace
+
+BasePartition base_partition(const Comm& comm, const std::vector<MeshEntry>& entries, const RunOptions& given,
+                             const std::vector<std::string>& petsc_arguments, StageLog& log) {
+    const RunOptions options = with_parts_of_examples(comm, given);
+    refuse_contradictions(options);
+    const RunFolders folders(comm, options.output, options.process);
+    RunCheckpoints checkpoints(comm, folders.state(),
+                               cut_option_text(option_values(options), petsc_arguments));
+    return partitioned(comm, &entries, options, folders, checkpoints, true, log).base;
+}
+
+CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, const RunOptions& given,
+                       const std::vector<std::string>& petsc_arguments, StageLog& log) {
+    const GivenCorrections corrections = read_given_corrections(comm, given.partition);
+    RunOptions options = with_levels_for(corrections, with_parts_of_examples(comm, given));
+    refuse_contradictions(options);
+    if (options.output.profile) begin_profile(log);
+    RunFolders folders(comm, options.output, options.process);
+    std::vector<OptionValue> values = option_values(options);
+    RunCheckpoints checkpoints(comm, folders.state(), cut_option_text(values, petsc_arguments));
+    auto [base, ranges, model, alignment] =
+        partitioned(comm, entries, options, folders, checkpoints, corrections.is_given, log);
+    auto& [base_options, collection, features, optimisation, cut, examples] = base;
+
+    // What a person says of the parts, and how the others follow.
+    if (corrections.is_given) {
+        FollowedCorrections followed =
+            follow_corrections(comm, base.base(), corrections, features, optimisation.result.coefficients,
+                               options.partition, log);
+        options.partition.parts = followed.parts;
+        values = with_corrected_parts(std::move(values), followed.parts);
+        cut = std::move(followed.corrected.cut);
+        examples.faces = std::move(followed.corrected.faces);
+        agree(comm, [&] {
+            if (comm.is_root() && folders.keeps_results())
+                write_corrections(folders.results() + "/" + corrections_file, followed.file);
+        });
+    }
+    features = {};
 
     // The parts of faces: a vote of the over-segmentations, and boundaries that follow creases.
-    const std::vector<int>& part_of_patch = cut.part_of_patch;
-    std::vector<MeshLabels> labels =
-        label_faces(collection, cut, partition.parts, output.refine, log, examples.faces);
+    const OutputOptions& output = options.output;
+    const int parts = options.partition.parts;
+    std::vector<MeshLabels> labels = label_faces(collection, cut, parts, output.refine, log, examples.faces);
     if (!petsc_arguments.empty()) CheckedPetsc::refuse_unused(comm);
 
-    const RunOutcome outcome{collection,   ranges,
-                             optimisation, cut,
-                             labels,       partition.parts,
-                             values,       state_summary(comm, folders.state(), &checkpoints, collection),
-                             &alignment};
+    const RunOutcome outcome{
+        collection, ranges, optimisation, cut,
+        labels,     parts,  values,       state_summary(comm, folders.state(), &checkpoints, collection),
+        &alignment};
     std::string report;
     if (folders.keeps_results()) {
         if (output.keep_model)
-            write_run_model(comm, folders.results(), collection, model, part_of_patch, options);
+            write_run_model(comm, folders.results(), collection, model, cut.part_of_patch, options);
         report = write_results(comm, folders.results(), outcome, output, log);
-        if (output.profile) write_profile(comm, folders.results(), process, log);
+        if (output.profile) write_profile(comm, folders.results(), options.process, log);
     } else {
         report = run_report(comm, outcome, log);
     }

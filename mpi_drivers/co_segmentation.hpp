@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "mpi_drivers/editing/corrected_cut.hpp"
 #include "mpi_drivers/options/run_options.hpp"
+#include "mpi_drivers/partition/example_stage.hpp"
 #include "mpi_drivers/partition/partition_stage.hpp"
 #include "mpi_drivers/partition/run_model.hpp"
 #include "mpi_drivers/results/label_stage.hpp"
@@ -23,6 +25,26 @@ struct CoSegmented {
         model;  ///< of options.output.keep_model; on rank 0, or on all ranks where `entries` are given
     std::string report;  ///< the text of report.json, on rank 0
 };
+
+/// A collection and its partition, before anything that a person says of it is followed.
+struct BasePartition {
+    RunOptions options;  ///< with the number of parts
+    Collection collection;
+    PatchFeatures features;
+    Optimisation optimisation;
+    CutResult cut;
+    GivenLabels examples;
+
+    /// What corrections are about. It refers to this.
+    [[nodiscard]] CorrectionBase base() const {
+        return {collection, cut, options.partition.parts, examples.faces};
+    }
+};
+
+/// Describes, solves and cuts the meshes as co_segment does, and writes no results. Collective. Throws
+/// AgreedError.
+BasePartition base_partition(const Comm& comm, const std::vector<MeshEntry>& entries, const RunOptions& given,
+                             const std::vector<std::string>& petsc_arguments, StageLog& log);
 
 /// Runs all stages on the meshes `entries`, or where this is null on those that given.process.inputs name.
 /// The folder of results is written if given.output.folder has a name. petsc_arguments are the words that

@@ -119,11 +119,11 @@ int parse_and_run(const Comm& world, int argc, char** argv) {
         "Exit codes: 0 success, 1 internal error, 2 usage, 3 input, 4 output, 5 no convergence, "
         "75 checkpointed (the same command continues).");
     const std::vector<coseg::Command> commands = {
-        coseg::add_run_command(app),    coseg::add_assign_command(app),    coseg::add_render_command(app),
-        coseg::add_report_command(app), coseg::add_export_command(app),    coseg::add_score_command(app),
-        coseg::add_check_command(app),  coseg::add_generate_command(app),  coseg::add_describe_command(app),
-        coseg::add_state_command(app),  coseg::add_cluster_command(app),   coseg::add_solve_command(app),
-        coseg::add_man_command(app),    coseg::add_completion_command(app)};
+        coseg::add_run_command(app),    coseg::add_assign_command(app),   coseg::add_render_command(app),
+        coseg::add_report_command(app), coseg::add_export_command(app),   coseg::add_score_command(app),
+        coseg::add_check_command(app),  coseg::add_generate_command(app), coseg::add_describe_command(app),
+        coseg::add_state_command(app),  coseg::add_cluster_command(app),  coseg::add_solve_command(app),
+        coseg::add_edit_command(app),   coseg::add_man_command(app),      coseg::add_completion_command(app)};
     if (arguments.own.empty()) {
         if (world.is_root()) {
             std::cout << app.help() << std::flush;

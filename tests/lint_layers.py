@@ -39,10 +39,11 @@ ROOMS = {
     "io/files": ("src/base", "src/records"),
     "io/gltf": ("io/files", "src/base", "src/pictures"),
     "io/mesh_files": ("io/files", "io/gltf", "src/base", "src/mesh", "src/pictures", "src/records"),
-    "io/data_files": ("io/files", "src/base"),
+    "io/data_files": ("io/files", "src/base", "src/records"),
     "io/folders": ("io/files", "src/base"),
     "io/part_files": ("io/files", "io/reports", "src/base", "src/measures", "src/mesh", "src/records"),
-    "io/reports": ("io/files", "src/base", "src/parallel", "src/pictures", "src/records"),
+    "io/http": ("src/base",),
+    "io/reports": ("io/files", "src/base", "src/mesh", "src/parallel", "src/pictures", "src/records"),
     "solvers/petsc": ("src/base", "src/parallel"),
     "solvers/numeric": ("src/base", "src/parallel"),
     "solvers/subspace": ("solvers/numeric", "src/base", "src/parallel", "src/histograms", "src/records"),
@@ -66,14 +67,16 @@ ROOMS = {
     "mpi_drivers/finished_runs": ("mpi_drivers/describe",),
     "mpi_drivers/results": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
                             "mpi_drivers/partition", "mpi_drivers/finished_runs"),
+    "mpi_drivers/editing": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/partition",
+                            "mpi_drivers/results"),
     # co_segmentation, assignment and clustering, the lists of the stages; main.cpp belongs to no room.
     "mpi_drivers": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
-                    "mpi_drivers/partition", "mpi_drivers/results"),
+                    "mpi_drivers/partition", "mpi_drivers/results", "mpi_drivers/editing"),
     "mpi_drivers/interface": ("mpi_drivers", "mpi_drivers/describe", "mpi_drivers/optimise", "mpi_drivers/options",
                               "mpi_drivers/finished_runs"),
     "mpi_drivers/commands": ("mpi_drivers", "mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe",
                              "mpi_drivers/optimise", "mpi_drivers/partition", "mpi_drivers/results",
-                             "mpi_drivers/finished_runs"),
+                             "mpi_drivers/finished_runs", "mpi_drivers/editing"),
 }
 PROGRAM = "mpi_drivers/main.cpp"
 MOST_UNITS = 25

@@ -23,6 +23,9 @@ FinishedRun run_of(const std::string& folder, const Json& report) {
     FinishedRun run;
     run.folder = folder;
     const Json& options = report.at("options");
+    for (const auto& [key, value] : options.items())
+        run.options.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+    run.state = options.value("state", "");
     run.parts = options.at("parts").get<int>();
     run.seed = options.at("seed").get<std::uint64_t>();
     run.weld = options.value("weld", "auto");

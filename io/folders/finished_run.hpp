@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coseg {
@@ -14,6 +15,10 @@ struct FinishedShape {
 };
 
 struct FinishedRun {
+    /// Every option of the run as it was resolved: its name without dashes, and its value as on the command
+    /// line.
+    std::vector<std::pair<std::string, std::string>> options;
+    std::string state;  ///< the folder of its state, "" for none
     std::string folder;
     int parts = 0;
     std::uint64_t seed = 1;

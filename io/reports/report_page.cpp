@@ -8,6 +8,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/byte_cursor.hpp"
+#include "io/reports/page_pieces.hpp"
 #include "io/reports/web_assets.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
@@ -19,40 +20,6 @@ namespace {
 
 constexpr std::uint16_t wrong_bit = 0x8000;
 constexpr int most_short_vertices = 65535;
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = (group << 8U) | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? digits[(group >> (18U - 6U * k)) & 63U] : '=';
-    }
-    return text;
-}
-
-/// A script's text must not hold what ends a script.
-std::string inside_script(std::string_view text) {
-    std::string safe;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        safe += text[i];
-        if (text[i] == '<' && i + 1 < text.size() && text[i + 1] == '/') safe += '\\';
-    }
-    return safe;
-}
-
-std::string hex_color(const Color& color) {
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string text = "#";
-    for (const std::uint8_t channel : color) {
-        text += digits[channel >> 4U];
-        text += digits[channel & 15U];
-    }
-    return text;
-}
 
 nlohmann::ordered_json or_null(const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
@@ -81,21 +48,6 @@ std::string mesh_elements(const ReportPage& page) {
                 "</script>\n";
     }
     return text;
-}
-
-/// The page's text with the pieces in place of their @NAME@.
-std::string filled(std::string_view page, const std::map<std::string, std::string, std::less<>>& pieces) {
-    std::string text;
-    while (!page.empty()) {
-        const std::size_t begin = page.find('@');
-        const std::size_t end = begin == std::string_view::npos ? begin : page.find('@', begin + 1);
-        if (end == std::string_view::npos) break;
-        const auto piece = pieces.find(page.substr(begin + 1, end - begin - 1));
-        text += page.substr(0, begin);
-        if (piece != pieces.end()) text += piece->second;
-        page.remove_prefix(end + 1);
-    }
-    return text += page;
 }
 
 }  // namespace

@@ -9,6 +9,9 @@ struct WebAssets {
     std::string_view page;  ///< with @NAME@ where a piece goes
     std::string_view style;
     std::string_view script;
+    std::string_view edit_page;  ///< as `page`, of coseg edit
+    std::string_view edit_style;
+    std::string_view edit_script;
     std::string_view licences;
     std::string_view three;     ///< three.js; empty if it was not there when the program was built
     std::string_view controls;  ///< its OrbitControls

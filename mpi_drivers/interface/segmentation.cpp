@@ -104,6 +104,7 @@ Segmentation segmented(LibraryCall& library, std::span<const Shape> given, const
     const CollectionShapes shapes(comm, given);
     CoSegmented done = co_segment(comm, &shapes.entries(), options, {}, library.log());
     Segmentation result;
+    options.partition.parts = static_cast<int>(done.cut.part_share.size());  // corrections may change it
     result.parts = options.partition.parts;
     result.warnings = library.warnings();
     add_solution(result, done.optimisation.result, options.optimise.gap);

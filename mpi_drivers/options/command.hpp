@@ -42,5 +42,6 @@ Command add_completion_command(CLI::App& parent);
 Command add_describe_command(CLI::App& parent);
 Command add_state_command(CLI::App& parent);
 Command add_assign_command(CLI::App& parent);
+Command add_edit_command(CLI::App& parent);
 
 }  // namespace coseg

@@ -201,6 +201,16 @@ void RunOptionTable::add_results() {
          "for faces of which nothing is said): the others get the same parts"},
         options_.partition.examples)
         ->type_name("DIR");
+    add({"corrections", Affects::nothing, in_out_group,
+         "corrections.json of coseg edit: the parts as a person has corrected them"},
+        options_.partition.corrections)
+        ->type_name("FILE");
+    add({"constraints", Affects::nothing, in_out_group,
+         "Faces that have the same part or different ones, parts that a shape does not have: CSV or JSON, "
+         "see "
+         "docs/editing.md"},
+        options_.partition.constraints)
+        ->type_name("FILE");
     add({"out", Affects::nothing, in_out_group,
          "Folder for the results; must be new or empty unless --force"},
         output.folder)

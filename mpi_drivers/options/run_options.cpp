@@ -88,6 +88,12 @@ void refuse_contradictions(const RunOptions& options) {
         (partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion))
         throw AgreedError(ExitCode::usage,
                           "--examples cannot be joined with --subsets, --segments or --partition diffusion");
+    if ((!partition.corrections.empty() || !partition.constraints.empty()) &&
+        (partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion ||
+         partition.parts == 1))
+        throw AgreedError(ExitCode::usage,
+                          "--corrections and --constraints need two parts or more, and cannot be joined with "
+                          "--subsets, --segments or --partition diffusion");
     if (partition.levels && (partition.subsets > 0 || partition.segments || !partition.choose ||
                              partition.method == PartitionMethod::diffusion || partition.parts == 1))
         throw AgreedError(

@@ -143,9 +143,11 @@ constexpr std::array<EnumName<AlignMode>, 2> enum_names(AlignMode /*type*/) {
 
 /// Options of the stage that finds the part of every patch from coefficients.
 struct PartitionOptions {
-    std::uint64_t seed = 1;  ///< of subsets, and of the diffusion map's clusters
-    int parts = 0;           ///< K; 0: as many as the examples have labels
-    std::string examples;    ///< folder of the labels that the user gives for some shapes; "": none
+    std::uint64_t seed = 1;   ///< of subsets, and of the diffusion map's clusters
+    int parts = 0;            ///< K; 0: as many as the examples have labels
+    std::string examples;     ///< folder of the labels that the user gives for some shapes; "": none
+    std::string corrections;  ///< file of what a person says of the partition; "": none
+    std::string constraints;  ///< file of links and absent parts alone; "": none
     PartitionMethod method = PartitionMethod::spectral;
     AffinityForm affinity = AffinityForm::links;
     double drop_below = 0.0;  ///< entries of the affinity below are dropped

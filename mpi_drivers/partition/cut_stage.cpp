@@ -45,25 +45,6 @@ bool looks_at_positions(const Eigen::Matrix3Xd& positions, const PartitionOption
     return options.choose && options.places && positions.cols() > 0;
 }
 
-CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions& options) {
-    CutOptions cut;
-    cut.parts = options.parts;
-    cut.form = options.affinity;
-    cut.drop_below = options.drop_below;
-    cut.spectral.offset = options.cut_offset;
-    cut.spectral.mesh_balance = options.mesh_balance;
-    if (options.levels) cut.finest_level = std::max(24, 3 * options.parts);
-    if (options.choose) {
-        cut.starts = pooled_starts(options.parts);
-        if (looks_at_positions(positions, options)) append(cut.starts, pooled_starts(options.parts, true));
-    } else {
-        cut.starts = single_start(options.parts, options.adjacency);
-        const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
-        for (CutStart& start : cut.starts) start.graph = weights;
-    }
-    return cut;
-}
-
 /// Of the descriptors that have a weight in the choice, and of positions.
 std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features,
                                                  const PartitionOptions& options) {
@@ -96,6 +77,25 @@ PartitionInput partition_input(const Collection& collection, PatchFeatures featu
             .choice = std::move(choice),
             .histograms = std::move(clustered),
             .examples = examples.empty() ? nullptr : &examples};
+}
+
+CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions& options) {
+    CutOptions cut;
+    cut.parts = options.parts;
+    cut.form = options.affinity;
+    cut.drop_below = options.drop_below;
+    cut.spectral.offset = options.cut_offset;
+    cut.spectral.mesh_balance = options.mesh_balance;
+    if (options.levels) cut.finest_level = std::max(24, 3 * options.parts);
+    if (options.choose) {
+        cut.starts = pooled_starts(options.parts);
+        if (looks_at_positions(positions, options)) append(cut.starts, pooled_starts(options.parts, true));
+    } else {
+        cut.starts = single_start(options.parts, options.adjacency);
+        const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
+        for (CutStart& start : cut.starts) start.graph = weights;
+    }
+    return cut;
 }
 
 CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const PartitionOptions& options) {

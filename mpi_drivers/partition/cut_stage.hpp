@@ -35,6 +35,9 @@ PartitionInput partition_input(const Collection& collection, PatchFeatures featu
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                const ExampleLabels& examples = {});
 
+/// What a cut of these patches is made with. positions: as in PartitionInput.
+CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions& options);
+
 /// Cuts the patches into K parts. K must not exceed the number of patches. Collective. Throws
 /// AgreedError(not_converged).
 CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const PartitionOptions& options);

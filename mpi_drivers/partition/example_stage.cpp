@@ -66,24 +66,6 @@ int labels_in(const std::string& folder) {
     return largest + 1;
 }
 
-/// Of one mesh: parts x its patches, its over-segmentations in order.
-Eigen::MatrixXd label_areas(const MeshDescription& mesh, const std::vector<int>& label_of_input_face,
-                            int parts) {
-    std::vector<int> labels;
-    for (const int face : mesh.map.input_face)
-        labels.push_back(label_of_input_face.empty() ? -1 : label_of_input_face[at(face)]);
-    Eigen::Index patches = 0;
-    for (const int count : mesh.patch_counts) patches += count;
-    Eigen::MatrixXd areas(parts, patches);
-    Eigen::Index first = 0;
-    for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
-        areas.middleCols(first, mesh.patch_counts[s]) =
-            patch_label_areas(mesh.patches[s], mesh.patch_counts[s], labels, parts, mesh.geometry.area);
-        first += mesh.patch_counts[s];
-    }
-    return areas;
-}
-
 void refuse_strangers(const Collection& collection, const std::vector<std::string>& names,
                       const std::string& folder) {
     std::set<std::string> known;
@@ -106,6 +88,23 @@ void warn_of_labels_without_example(const Eigen::MatrixXd& areas, const StageLog
 }
 
 }  // namespace
+
+Eigen::MatrixXd label_areas(const MeshDescription& mesh, const std::vector<int>& label_of_input_face,
+                            int parts) {
+    std::vector<int> labels;
+    for (const int face : mesh.map.input_face)
+        labels.push_back(label_of_input_face.empty() ? -1 : label_of_input_face[at(face)]);
+    Eigen::Index patches = 0;
+    for (const int count : mesh.patch_counts) patches += count;
+    Eigen::MatrixXd areas(parts, patches);
+    Eigen::Index first = 0;
+    for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
+        areas.middleCols(first, mesh.patch_counts[s]) =
+            patch_label_areas(mesh.patches[s], mesh.patch_counts[s], labels, parts, mesh.geometry.area);
+        first += mesh.patch_counts[s];
+    }
+    return areas;
+}
 
 RunOptions with_parts_of_examples(const Comm& comm, const RunOptions& options) {
     RunOptions result = options;

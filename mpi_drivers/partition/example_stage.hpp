@@ -17,6 +17,11 @@ namespace coseg {
 /// and a label that is not below --parts.
 RunOptions with_parts_of_examples(const Comm& comm, const RunOptions& options);
 
+/// Of one mesh, parts x its patches, its over-segmentations in order: the area of each patch on faces of each
+/// label. label_of_input_face: -1 where nothing is known; empty: nowhere.
+Eigen::MatrixXd label_areas(const MeshDescription& mesh, const std::vector<int>& label_of_input_face,
+                            int parts);
+
 /// What the examples say of a collection.
 struct GivenLabels {
     ExampleLabels patches;  ///< on all ranks; empty without examples

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array<const char*, 6> marks_of_launchers{
     "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_STEPID", "ALPS_APP_PE"};
-constexpr std::array<std::string_view, 2> commands_in_parallel{"run", "assign"};
+constexpr std::array<std::string_view, 3> commands_in_parallel{"run", "assign", "edit"};
 
 bool is_launched() {
     return std::any_of(marks_of_launchers.begin(), marks_of_launchers.end(),

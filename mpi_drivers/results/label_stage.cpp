@@ -99,26 +99,30 @@ std::vector<int> refined(const MeshDescription& mesh, const PatchNumbering& numb
 
 }  // namespace
 
+MeshLabels labels_of_mesh(const MeshDescription& mesh, const PatchNumbering& numbering, const CutResult& cut,
+                          int parts, RefineMode refine, const std::vector<int>& given) {
+    const auto part_of = parts_of_mesh(numbering, mesh.mesh, cut.part_of_patch);
+    const std::vector<int> part_of_face = refined(
+        mesh, numbering, cut, vote_face_labels(mesh.patches, part_of, parts, mesh.graph), parts, refine);
+    std::vector<int> part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area);
+    std::vector<float> confidence = confidence_of_faces(mesh, numbering, cut, part, parts);
+    keep_given(given, part, confidence);
+    std::vector<double> part_area = area_shares(mesh, part, parts);
+    return {.mesh = mesh.mesh,
+            .part = std::move(part),
+            .patch = carry_labels_back(mesh.map, mesh.patches.front(), mesh.geometry.area),
+            .confidence = std::move(confidence),
+            .part_area = std::move(part_area)};
+}
+
 std::vector<MeshLabels> label_faces(const Collection& collection, const CutResult& cut, int parts,
                                     RefineMode refine, StageLog& log,
                                     const std::vector<std::vector<int>>& given) {
     log.begin("label");
     std::vector<MeshLabels> labels;
     for (std::size_t k = 0; k < collection.local.size(); ++k) {
-        const MeshDescription& mesh = collection.local[k];
-        const auto part_of = parts_of_mesh(collection.numbering, mesh.mesh, cut.part_of_patch);
-        const std::vector<int> part_of_face =
-            refined(mesh, collection.numbering, cut,
-                    vote_face_labels(mesh.patches, part_of, parts, mesh.graph), parts, refine);
-        std::vector<int> part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area);
-        std::vector<float> confidence = confidence_of_faces(mesh, collection.numbering, cut, part, parts);
-        if (!given.empty()) keep_given(given[k], part, confidence);
-        std::vector<double> part_area = area_shares(mesh, part, parts);
-        labels.push_back({.mesh = mesh.mesh,
-                          .part = std::move(part),
-                          .patch = carry_labels_back(mesh.map, mesh.patches.front(), mesh.geometry.area),
-                          .confidence = std::move(confidence),
-                          .part_area = std::move(part_area)});
+        labels.push_back(labels_of_mesh(collection.local[k], collection.numbering, cut, parts, refine,
+                                        given.empty() ? std::vector<int>() : given[k]));
     }
     log.end("one part per face");
     return labels;

@@ -27,4 +27,8 @@ std::vector<MeshLabels> label_faces(const Collection& collection, const CutResul
                                     RefineMode refine, StageLog& log,
                                     const std::vector<std::vector<int>>& given = {});
 
+/// The same for one mesh; given: what is said of its faces, or empty. Serial.
+MeshLabels labels_of_mesh(const MeshDescription& mesh, const PatchNumbering& numbering, const CutResult& cut,
+                          int parts, RefineMode refine, const std::vector<int>& given);
+
 }  // namespace coseg

@@ -39,6 +39,8 @@ std::map<std::string, OptionValue> by_key(const RunOptions& options) {
 const std::map<std::string, std::vector<std::string>> changes = {
     {"parts", {"--parts=4"}},
     {"examples", {"--examples=folder"}},
+    {"corrections", {"--corrections=file"}},
+    {"constraints", {"--constraints=file"}},
     {"out", {"--out=elsewhere"}},
     {"keep-model", {"--no-keep-model"}},
     {"force", {"--force"}},

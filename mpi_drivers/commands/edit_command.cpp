@@ -1,0 +1,207 @@
+// coseg edit: serves a page on this machine in which a person corrects a finished run.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "io/data_files/label_file.hpp"
+#include "io/folders/finished_run.hpp"
+#include "io/folders/state_lock.hpp"
+#include "io/reports/edit_page.hpp"
+#include "mpi_drivers/co_segmentation.hpp"
+#include "mpi_drivers/editing/correction_stage.hpp"
+#include "mpi_drivers/editing/edit_desk.hpp"
+#include "mpi_drivers/finished_runs/sheet_stage.hpp"
+#include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/named_options.hpp"
+#include "mpi_drivers/process/checked_petsc.hpp"
+#include "src/base/error.hpp"
+#include "src/base/index.hpp"
+#include "src/parallel/record_exchange.hpp"
+
+namespace coseg {
+
+namespace {
+
+struct EditOptions {
+    std::string run;
+    std::string state;
+    std::vector<std::string> meshes;
+    int port = 0;
+    bool quiet = false;
+    int ranks = 0;  // acted on before MPI starts, see self_launch.hpp
+};
+
+bool is_corrected(const FinishedRun& run) {
+    return std::any_of(run.options.begin(), run.options.end(),
+                       [](const auto& option) { return option.first == base_parts_key; });
+}
+
+/// As the run was made, before corrections, with nothing written.
+RunOptions options_of(const FinishedRun& run, const EditOptions& given) {
+    const std::vector<std::string> names = named_option_names();
+    std::vector<NamedOption> options;
+    std::string parts;
+    std::string base_parts;
+    for (const auto& [key, value] : run.options) {
+        if (key == "parts") parts = value;
+        if (key == base_parts_key) base_parts = value;
+        const bool is_known = std::find(names.begin(), names.end(), key) != names.end();
+        if (is_known && !value.empty() && key != "corrections" && key != "constraints" && key != "profile")
+            options.emplace_back(key, value);
+    }
+    RunOptions result = options_by_name(options);
+    result.partition.parts = std::stoi(base_parts.empty() ? parts : base_parts);
+    result.process.state = given.state.empty() ? run.state : given.state;
+    result.process.quiet = given.quiet;
+    result.output.keep_model = false;
+    result.output.keep_features = false;
+    return result;
+}
+
+/// The meshes of the run: where it found them, or of the same names among `meshes`.
+std::vector<MeshEntry> entries_of(const FinishedRun& run, const std::vector<std::string>& meshes) {
+    std::vector<MeshEntry> entries;
+    std::vector<MeshEntry> found;
+    if (!meshes.empty()) found = expand_mesh_list(meshes);
+    for (const FinishedShape& shape : run.shapes) {
+        MeshEntry entry{shape.name, shape.path, 0, nullptr};
+        if (!meshes.empty()) {
+            const auto other = std::find_if(found.begin(), found.end(),
+                                            [&](const MeshEntry& e) { return e.name == shape.name; });
+            if (other == found.end())
+                throw Error(ExitCode::input, "--meshes: there is no mesh '" + shape.name + "'");
+            entry = *other;
+        } else if (!std::filesystem::exists(shape.path)) {
+            throw Error(ExitCode::input, shape.path +
+                                             ": the mesh is no longer there; say with --meshes where the "
+                                             "run's meshes are now");
+        }
+        entries.push_back(entry);
+    }
+    return entries;
+}
+
+/// Corrections of a partition that the run does not have would come to nothing.
+void refuse_other_labels(const Comm& comm, const BasePartition& run, const std::string& folder,
+                         StageLog& log) {
+    const std::vector<MeshLabels> labels = label_faces(run.collection, run.cut, run.options.partition.parts,
+                                                       run.options.output.refine, log, run.examples.faces);
+    agree(comm, [&] {
+        for (std::size_t k = 0; k < labels.size(); ++k) {
+            const std::string path =
+                folder + "/labels/" + run.collection.meshes[at(run.collection.local[k].mesh)].name + ".seg";
+            if (read_labels(path) != labels[k].part)
+                throw Error(
+                    ExitCode::input,
+                    path +
+                        ": is not what this coseg makes of the mesh and the options of the run; one of "
+                        "them has changed since, so run coseg run again");
+        }
+    });
+}
+
+View view_of(const Comm& comm, const BasePartition& run) {
+    std::vector<DrawnShape> drawn;
+    agree(comm, [&] {
+        for (const MeshDescription& mesh : run.collection.local)
+            drawn.push_back(
+                {mesh.mesh, "", picture_mesh(mesh.input, std::vector<Color>(at(mesh.input.face_count())))});
+    });
+    return agree_on_view(comm, drawn, run.options.output.view);
+}
+
+/// What one session at a time holds. Throws Error(output) where another one has it, or nothing can be
+/// written.
+std::unique_ptr<StateLock> session_lock(const std::string& run) {
+    try {
+        return std::make_unique<StateLock>(run + "/.corrections.lock", LockMode::exclusive);
+    } catch (const Error& error) {
+        const std::string cause = error.what();
+        const std::size_t holder = cause.find("(host");
+        if (holder == std::string::npos)
+            throw Error(error.code(),
+                        "'" + run +
+                            "' cannot be written, so nothing that you say could be kept; make it "
+                            "writable or copy it (" +
+                            cause + ")");
+        throw Error(error.code(), "another coseg edit works on '" + run + "' " +
+                                      cause.substr(holder, cause.find(')', holder) + 1 - holder) +
+                                      "; use its page, or end it first");
+    }
+}
+
+void serve(const Comm& comm, EditSession& session, const BasePartition& run, const EditOptions& options,
+           const View& view) {
+    EditPage page{"", options.run};
+    std::optional<LocalServer> server;
+    agree(comm, [&] {
+        if (!comm.is_root()) return;
+        page.html = edit_page("coseg edit: " + std::filesystem::path(options.run).filename().string(), view);
+        server.emplace(options.port);
+    });
+    if (comm.is_root()) {
+        std::cout << server->address() << std::endl;
+        if (!options.quiet)
+            std::cerr << "coseg: open this address in a browser on this machine; what you say is kept in "
+                      << options.run << "/" << corrections_file << std::endl;
+    }
+    EditDesk(comm, run.base(), session, std::move(page)).serve(comm.is_root() ? &*server : nullptr);
+}
+
+void edit(const Invocation& invocation, const EditOptions& options) {
+    const Comm& comm = invocation.world;
+    FinishedRun finished;
+    RunOptions run_options;
+    std::vector<MeshEntry> entries;
+    std::unique_ptr<StateLock> lock;
+    agree(comm, [&] {
+        finished = read_finished_run(options.run);
+        run_options = options_of(finished, options);
+        if (comm.is_root()) entries = entries_of(finished, options.meshes);
+        if (comm.is_root()) lock = session_lock(options.run);
+    });
+    broadcast(comm, entries);
+    StageLog log(comm, run_options.process.verbosity(), run_options.process.log_form());
+    const CheckedPetsc petsc(comm, invocation.petsc_arguments);
+    const BasePartition run = base_partition(comm, entries, run_options, invocation.petsc_arguments, log);
+    if (!is_corrected(finished)) refuse_other_labels(comm, run, options.run, log);
+    std::unique_ptr<CorrectedParts> parts = corrected_parts_of(
+        comm, run.base(), run.features, run.optimisation.result.coefficients, run.options.partition);
+    EditSession session(comm, run.base(), std::move(parts), run.options.output.refine,
+                        options.run + "/" + corrections_file);
+    serve(comm, session, run, options, view_of(comm, run));
+}
+
+}  // namespace
+
+Command add_edit_command(CLI::App& parent) {
+    const auto options = std::make_shared<EditOptions>();
+    CLI::App* app = parent.add_subcommand("edit", "Correct a finished run in a page, on this machine");
+    app->add_option("RUN", options->run, "The folder that coseg run was given with --out")->required();
+    app->add_option("--state", options->state,
+                    "Folder that keeps what the run has computed, if not the one that the run was given")
+        ->type_name("DIR");
+    app->add_option("--meshes", options->meshes,
+                    "Where the meshes are now, if not where the run found them: files, folders or @LIST")
+        ->type_name("MESH|DIRECTORY|@LIST");
+    app->add_option("--port", options->port, "Port of 127.0.0.1 to serve on; 0: any that is free")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
+    app->add_option("--ranks", options->ranks,
+                    "Ranks of a command that is started without mpirun; 0: one for each core")
+        ->check(CLI::Range(0, 100000));
+    app->add_flag("--quiet", options->quiet, "No progress lines; the address, warnings and errors only");
+    app->footer(
+        "It serves 127.0.0.1 alone. A run with --state opens in seconds; one without is computed again. "
+        "Levels "
+        "and splits need a run with --levels.\nExample: coseg run --parts 4 --levels --state kept --out "
+        "result "
+        "chairs/; coseg edit result");
+    return {app, [options](const Invocation& invocation) { edit(invocation, *options); }};
+}
+
+}  // namespace coseg

@@ -1,0 +1,93 @@
+#include "io/data_files/correction_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "io/files/atomic_file.hpp"
+#include "src/base/error.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace coseg {
+namespace {
+
+TEST(CorrectionFile, HasEveryKindOfActAgainAsItWasWritten) {
+    const char* acts[] = {
+        R"({"act":"label","part":2,"shape":"a \"b\" ü","faces":"0-11,15","patches":"3"})",
+        R"({"act":"confirm","shape":"a","labels":"0*12,3,0*2"})",
+        R"({"act":"merge","part":3,"into":1})",
+        R"({"act":"split","part":0})",
+        R"({"act":"new-part"})",
+        R"({"act":"name","part":0,"name":"left leg"})",
+        R"({"act":"color","part":0,"color":"#0a1B2c"})",
+        R"({"act":"absent","part":1,"shape":"b"})",
+        R"({"act":"must-link","first":{"shape":"a","face":3},"second":{"shape":"b","patch":0}})",
+        R"({"act":"cannot-link","first":{"shape":"a","patch":3},"second":{"shape":"a","patch":4}})",
+        R"({"act":"level","parts":5})"};
+    const test::TemporaryFolder folder;
+    CorrectionFile file{"0123", {}, {}};
+    for (const char* act : acts) {
+        EXPECT_EQ(correction_text(parsed_correction(act, "here")), act);
+        file.acts.push_back(parsed_correction(act, "here"));
+    }
+    file.undone.push_back(file.acts[2]);
+    const std::string path = folder.path() + "/corrections.json";
+    write_corrections(path, file);
+    const CorrectionFile again = read_corrections(path);
+    EXPECT_EQ(again.run, "0123");
+    ASSERT_EQ(again.acts.size(), file.acts.size());
+    for (std::size_t k = 0; k < file.acts.size(); ++k) {
+        EXPECT_EQ(correction_text(again.acts[k]), acts[k]);
+        EXPECT_EQ(again.acts[k].where, path + ", act " + std::to_string(k + 1));
+    }
+    ASSERT_EQ(again.undone.size(), 1U);
+    EXPECT_EQ(correction_text(again.undone[0]), acts[2]);
+}
+
+TEST(CorrectionFile, WritesNumbersAsRangesAndLabelsAsRuns) {
+    EXPECT_EQ(number_ranges({0, 1, 2, 7, 9, 10}), "0-2,7,9-10");
+    EXPECT_EQ(parsed_ranges("0-2,7,9-10", 10), (std::vector<int>{0, 1, 2, 7, 9, 10}));
+    EXPECT_EQ(label_runs({4, 4, 0, 4}), "4*2,0,4");
+    EXPECT_EQ(parsed_runs("4*2,0,4"), (std::vector<int>{4, 4, 0, 4}));
+    for (const char* bad : {"", "3-1", "1,1", "2,1", "-1", "x", "1-", "11", "1 2", "0-99999999999"})
+        EXPECT_THROW(parsed_ranges(bad, 10), Error) << bad;
+    for (const char* bad : {"", "1*0", "1*", "*2", "-1", "0*300000000", "0*-2", "1000"})
+        EXPECT_THROW(parsed_runs(bad), Error) << bad;
+}
+
+TEST(CorrectionFile, RefusesWhatNoActCanBe) {
+    for (const char* bad :
+         {"[]", "{}", "3", R"({"act": 3})", R"({"act": "label", "part": 1, "shape": "a"})",
+          R"({"act": "label", "part": -1, "shape": "a", "faces": "0"})",
+          R"({"act": "label", "part": 1e9, "shape": "a", "faces": "0"})",
+          R"({"act": "label", "part": 1, "shape": "a", "faces": [0]})",
+          R"({"act": "merge", "part": 1, "into": 1})", R"({"act": "level", "parts": 1})",
+          R"({"act": "name", "part": 0, "name": ""})", R"({"act": "color", "part": 0, "color": "red"})",
+          R"({"act": "must-link", "first": {"shape": "a", "face": 1}})",
+          R"({"act": "must-link", "first": {"shape": "a"}, "second": {"shape": "b", "face": 1}})"})
+        EXPECT_THROW(parsed_correction(bad, "here"), Error) << bad;
+    // A file of brackets without end must not end the process.
+    EXPECT_THROW(parsed_correction(std::string(200'000, '['), "here"), Error);
+}
+
+TEST(CorrectionFile, ReadsTheSameConstraintsFromCsvAndFromJson) {
+    const test::TemporaryFolder folder;
+    const std::string csv = folder.path() + "/c.csv";
+    const std::string json = folder.path() + "/c.json";
+    write_file(csv, "# a comment\r\n\r\nmust-link, a, 3, b, 4\r\nabsent,1,b\nname,0,left leg\n");
+    write_file(json, R"({"format": "coseg constraints", "version": 1, "constraints": [
+        {"act": "must-link", "first": {"shape": "a", "face": 3}, "second": {"shape": "b", "face": 4}},
+        {"act": "absent", "part": 1, "shape": "b"}, {"act": "name", "part": 0, "name": "left leg"}]})");
+    const std::vector<Correction> from_csv = read_constraints(csv);
+    const std::vector<Correction> from_json = read_constraints(json);
+    ASSERT_EQ(from_csv.size(), 3U);
+    ASSERT_EQ(from_json.size(), 3U);
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(correction_text(from_csv[k]), correction_text(from_json[k]));
+    EXPECT_EQ(from_csv[1].where, csv + ":4");
+    write_file(
+        json,
+        R"({"format": "coseg constraints", "version": 1, "constraints": [{"act": "split", "part": 1}]})");
+    EXPECT_THROW(read_constraints(json), Error);
+}
+
+}  // namespace
+}  // namespace coseg

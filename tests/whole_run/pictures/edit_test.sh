@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# coseg edit: a person's acts by HTTP and in a browser; the labels of its corrections come again without it.
+set -euo pipefail
+# shellcheck source=tests/whole_run/fixture.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
+
+here=$(dirname "${BASH_SOURCE[0]}")
+"$COSEG" generate table --count 4 --seed 5 --faces 2000 --out "$work/set" >/dev/null
+options=(--parts 2 --patches 20 --geodesic-samples 100)
+"$COSEG" run --quiet --no-html --no-sheet --levels "${options[@]}" --state "$work/state" --out "$work/run" "$work/set/meshes"
+"$COSEG" report "$work/run" >/dev/null 2>&1 || { echo "skipped: built without three.js and Chart.js"; exit 77; }
+
+cp -r "$work/run" "$work/run2"
+cp -r "$work/run" "$work/run3"
+python3 "$here/edit_client.py" "$COSEG" "$work/run"
+python3 "$here/edit_client.py" "$COSEG" "$work/run2" 2
+cmp "$work/run/corrections.json" "$work/run2/corrections.json" || fail "the same acts on 1 and on 2 ranks"
+ranks 3 "$COSEG" run --quiet --no-html --no-sheet "${options[@]}" --corrections "$work/run/corrections.json" --out "$work/again" "$work/set/meshes"
+diff -r "$work/run/corrected" "$work/again/labels" || fail "coseg run --corrections does not give the labels of the session"
+
+status=0
+python3 "$here/edit_in_browser.py" "$COSEG" "$work/run3" || status=$?
+[[ $status == 0 || $status == 77 ]] || fail "the page in a browser"
+
+# What is no run, what has changed, what cannot be written.
+refuses "no run" 3 "holds no report.json" "$COSEG" edit "$work/set"
+cp "$work/again/corrections.json" "$work/kept.json"
+sed -i 's/"run": "./"run": "x/' "$work/run/corrections.json"
+refuses "corrections of another run" 3 "is about another run" "$COSEG" edit --quiet "$work/run"
+rm "$work/run/corrections.json"
+sed -i '1s/.*/9/' "$work/run/labels/table_0001.seg"
+refuses "labels of another program" 3 "run coseg run again" "$COSEG" edit --quiet "$work/run"
+rm -r "$work/set/meshes"
+refuses "meshes that are gone" 3 "the mesh is no longer there" "$COSEG" edit --quiet "$work/run2"
