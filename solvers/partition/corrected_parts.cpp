@@ -3,10 +3,13 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "solvers/partition/cluster_sums.hpp"
 #include "solvers/partition/labelled_parts.hpp"
 #include "solvers/partition/part_confidence.hpp"
 #include "src/base/error.hpp"
@@ -19,7 +22,7 @@ namespace {
 /// Principal components of the features that are kept. Their number bounds the time of a correction.
 constexpr Eigen::Index components = 96;
 /// Shapes of examples that the base counts for.
-constexpr double base_shapes = 2.0;
+constexpr double base_shapes = 0.1;
 constexpr double base_ridge = 1.0;
 /// Rounds of expansions. After the third hardly a patch changes.
 constexpr int most_rounds = 4;
@@ -203,31 +206,65 @@ Eigen::MatrixXd CorrectedParts::scores(const SaidParts& said) const {
     return scores;
 }
 
+namespace {
+
+/// The value of all parts together, and what is known gains in them.
+double value_of(const PartitionObjective& objective, const KnownParts& known, const std::vector<int>& labels,
+                int parts) {
+    const ClusterSums sums = cluster_sums(objective, labels, parts);
+    double value = gain_of(known, labels);
+    for (int part = 0; part < parts; ++part) value += value_of_part(sums, std::array{part});
+    return value;
+}
+
+/// Known parts where there are some; else those of `wanted` where its mesh may have them, and the best of the
+/// others elsewhere. Without `wanted`, the best everywhere.
+std::vector<int> start_of(const SaidParts& said, const Eigen::MatrixXd& scores, const KnownParts& known,
+                          const std::vector<int>& mesh_of, const std::vector<int>* wanted) {
+    std::vector<int> labels(mesh_of.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const bool fits = wanted != nullptr && said.allowed((*wanted)[i], mesh_of[i]) != 0;
+        if (known.fixed[i] >= 0)
+            labels[i] = known.fixed[i];
+        else
+            labels[i] =
+                fits ? (*wanted)[i] : best_allowed(said, scores, static_cast<Eigen::Index>(i), mesh_of[i]);
+    }
+    return labels;
+}
+
+}  // namespace
+
 CorrectedPartition CorrectedParts::corrected(const Comm& comm, const SaidParts& said,
                                              const Eigen::MatrixXd& scores) const {
     const int parts = part_count(said);
     KnownParts known = known_parts(scores, {said.area}, patch_area_, weights_);
-    CorrectedPartition result{said.base, {}};
+    std::vector<std::vector<int>> starts;
     agree(comm, [&] {
-        for (std::size_t i = 0; i < result.parts.size(); ++i) {
-            const auto patch = static_cast<Eigen::Index>(i);
-            const int mesh = mesh_of_[i];
+        for (std::size_t i = 0; i < mesh_of_.size(); ++i) {
             for (int part = 0; part < parts; ++part) {
-                if (said.allowed(part, mesh) == 0) known.gain(part, patch) = -forbidden;
+                if (said.allowed(part, mesh_of_[i]) == 0)
+                    known.gain(part, static_cast<Eigen::Index>(i)) = -forbidden;
             }
             int& fixed = known.fixed[i];
-            if (fixed >= 0 && said.allowed(fixed, mesh) == 0) fixed = -1;
-            if (fixed >= 0)
-                result.parts[i] = fixed;
-            else if (said.allowed(result.parts[i], mesh) == 0)
-                result.parts[i] = best_allowed(said, scores, patch, mesh);
+            if (fixed >= 0 && said.allowed(fixed, mesh_of_[i]) == 0) fixed = -1;
         }
+        starts.push_back(start_of(said, scores, known, mesh_of_, &said.base));
+        starts.push_back(start_of(said, scores, known, mesh_of_, nullptr));
     });
-    for (int round = 0; round < most_rounds; ++round) {
-        std::vector<int> next = expand_parts(comm, objective_, known, result.parts, parts);
-        const bool is_same = next == result.parts;
-        result.parts = std::move(next);
-        if (is_same) break;
+    CorrectedPartition result;
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::vector<int>& labels : starts) {
+        for (int round = 0; round < most_rounds; ++round) {
+            std::vector<int> next = expand_parts(comm, objective_, known, labels, parts);
+            const bool is_same = next == labels;
+            labels = std::move(next);
+            if (is_same) break;
+        }
+        const double value = value_of(objective_, known, labels, parts);
+        if (!(value > best)) continue;
+        best = value;
+        result.parts = std::move(labels);
     }
     result.confidence = part_confidence(objective_, known, result.parts, parts);
     return result;

@@ -37,15 +37,16 @@ class CorrectedParts {
     CorrectedParts& operator=(const CorrectedParts&) = delete;
 
     /// K x N: about 1 where a patch has the part and 0 elsewhere, from what is said and, with the weight of
-    /// two shapes, from the base. A ridge regression as example_scores makes one, on the leading
+    /// a tenth of a shape, from the base. A ridge regression as example_scores makes one, on the leading
     /// principal components of the features instead of these. A patch of which at least half is said has 1
     /// for its part. Parts that no patch has, and of which nothing is said, have 0. Serial; a function of the
     /// arguments alone.
     [[nodiscard]] Eigen::MatrixXd scores(const SaidParts& said) const;
 
-    /// The parts of all patches: expansions from the base, with these scores as gains. Patches of which at
-    /// least half is said keep the part that is said, and no patch gets a part that its mesh may not have.
-    /// The same bytes on any number of ranks. Collective.
+    /// The parts of all patches: expansions from the base, or from the best scores if this comes to a higher
+    /// objective, with these scores as gains. Patches of which at least half is said keep the part that is
+    /// said, and no patch gets a part that its mesh may not have. The same bytes on any number of ranks.
+    /// Collective.
     [[nodiscard]] CorrectedPartition corrected(const Comm& comm, const SaidParts& said,
                                                const Eigen::MatrixXd& scores) const;
 

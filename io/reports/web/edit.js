@@ -241,13 +241,32 @@
   const partName = (number) => state.parts.find((part) => part.number === number).name;
   const merge = (part, into) => part !== into && send("act", { act: "merge", part, into });
 
+  // A part that is dragged on another one; pointers of any kind can do it.
+  let dragged = -1;
+  const rowUnder = (event) => {
+    const found = document.elementFromPoint(event.clientX, event.clientY);
+    const row = found && found.closest(".part");
+    return row && Number(row.dataset.part) !== dragged ? row : null;
+  };
+  document.addEventListener("pointermove", (event) => {
+    if (dragged < 0) return;
+    const under = rowUnder(event);
+    for (const row of element("parts").children) row.classList.toggle("over", row === under);
+  });
+  document.addEventListener("pointerup", (event) => {
+    const row = dragged >= 0 ? rowUnder(event) : null;
+    const part = dragged;
+    dragged = -1;
+    for (const other of element("parts").children) other.classList.remove("over");
+    if (row) merge(part, Number(row.dataset.part));
+  });
+
   function showParts() {
     const list = element("parts");
     list.replaceChildren();
     state.parts.forEach((part, k) => {
       const row = make("div", list, undefined, "part");
       row.dataset.part = part.number;
-      row.draggable = true;
       row.tabIndex = 0;
       row.setAttribute("role", "radio");
       row.setAttribute("aria-checked", part.number === chosen);
@@ -267,10 +286,7 @@
       const choose = () => { chosen = part.number; showChosen(); };
       row.addEventListener("click", choose);
       row.addEventListener("keydown", (event) => { if (event.target === row && (event.key === " " || event.key === "Enter")) { choose(); event.preventDefault(); event.stopPropagation(); } });
-      row.addEventListener("dragstart", (event) => event.dataTransfer.setData("text/plain", String(part.number)));
-      row.addEventListener("dragover", (event) => { event.preventDefault(); row.classList.add("over"); });
-      row.addEventListener("dragleave", () => row.classList.remove("over"));
-      row.addEventListener("drop", (event) => { event.preventDefault(); row.classList.remove("over"); merge(Number(event.dataTransfer.getData("text/plain")), part.number); });
+      row.addEventListener("pointerdown", (event) => { if (event.target.tagName !== "INPUT") { dragged = part.number; event.preventDefault(); } });
     });
     showChosen();
   }

@@ -27,7 +27,7 @@ struct Linked {
     [[nodiscard]] std::vector<int> parts() const { return parts_of_places(places, links, allowed, why); }
     [[nodiscard]] std::string sentence() const {
         try {
-            (void)parts();
+            static_cast<void>(parts());
         } catch (const Error& error) {
             return error.what();
         }
@@ -50,7 +50,7 @@ TEST(LinkedPlaces, OfTwoThatMustDifferTheClearerKeepsItsPart) {
 }
 
 TEST(LinkedPlaces, LeaveTheOthersAWay) {
-    // The two clear places would take parts 0 and 1. This leaves 2 alone for the third, which may not have it.
+    // The two clear places would take 0 and 1. This leaves 2 alone for the third, which may not have it.
     Linked linked({{0.9, 0.8, 0.7}, {0.1, 0.9, 0.0}, {0.3, 0.3, 0.3}});
     linked.link(0, 1, false);
     linked.link(1, 2, false);
