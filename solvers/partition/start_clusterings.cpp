@@ -61,14 +61,16 @@ std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& start
 
 /// The clusterings of the starts of one graph. Collective over the group.
 std::vector<PartitionCandidate> clusterings_of_graph(const Comm& group, const ClusteringTask& task,
-                                                     const std::vector<int>& starts) {
+                                                     const std::vector<int>& starts, VectorSums sums) {
     const std::vector<CutStart>& all = task.starts;
     const SparseRows graph =
         graph_of(task.terms, task.graphs, all[at(starts.front())].graph, task.drop_below);
     int count = task.parts;
     for (const int k : starts) count = std::max(count, all[at(k)].clusters);
+    SpectralOptions spectral = task.spectral;
+    spectral.sums = sums;
     const SpectralEmbedding embedding =
-        spectral_embedding(group, graph, task.parts, count, task.spectral, task.graphs.mesh_of);
+        spectral_embedding(group, graph, task.parts, count, spectral, task.graphs.mesh_of);
     const GraphCut cut{task.terms.within_mesh_affinity, embedding, graph.size};
     std::vector<PartitionCandidate> clusterings;
     for (const int k : starts) clusterings.push_back(clustering(cut, k, all[at(k)]));
@@ -83,7 +85,7 @@ std::vector<PartitionCandidate> dealt_clusterings(const Comm& comm, const Cluste
     std::vector<PartitionCandidate> mine;
     agree(comm, [&] {
         for (auto q = at(comm.rank()); q < graphs.size(); q += at(comm.size())) {
-            for (PartitionCandidate& r : clusterings_of_graph(self, task, graphs[q])) {
+            for (PartitionCandidate& r : clusterings_of_graph(self, task, graphs[q], VectorSums::plain)) {
                 mine.push_back(std::move(r));
             }
         }
@@ -95,7 +97,7 @@ std::vector<PartitionCandidate> dealt_clusterings(const Comm& comm, const Cluste
 std::vector<PartitionCandidate> shared_clusterings(const Comm& comm, const ClusteringTask& task) {
     std::vector<PartitionCandidate> mine;
     for (const std::vector<int>& starts : starts_by_graph(task.starts)) {
-        for (PartitionCandidate& r : clusterings_of_graph(comm, task, starts)) {
+        for (PartitionCandidate& r : clusterings_of_graph(comm, task, starts, VectorSums::exact)) {
             if (r.index % comm.size() == comm.rank()) mine.push_back(std::move(r));
         }
     }

@@ -213,13 +213,17 @@ PetscErrorCode create_exact_basis(BV basis) {
 
 }  // namespace
 
-PetscVector exact_vector(const Comm& comm, std::int64_t size) {
+PetscVector row_vector(const Comm& comm, std::int64_t size, VectorSums sums) {
     const BlockRange rows = block_range(size, comm.size(), comm.rank(), row_tile);
     PetscVector vector;
     check(VecCreateMPI(comm.raw(), petsc_int(rows.size(), "rows"), petsc_int(size, "patches"), vector.out()),
           "VecCreateMPI");
-    set_operations(*vector.get()->ops);
+    if (sums == VectorSums::exact) set_operations(*vector.get()->ops);
     return vector;
+}
+
+PetscVector exact_vector(const Comm& comm, std::int64_t size) {
+    return row_vector(comm, size, VectorSums::exact);
 }
 
 BasisVectors exact_basis(const Comm& comm, const PetscVector& like, int columns) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "solvers/petsc/petsc_handle.hpp"
+#include "solvers/spectral/vector_sums.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
@@ -19,6 +20,10 @@ using BasisVectors = PetscHandle<BV, BVDestroy>;
 /// beyond 2^77 is an error (PETSC_ERR_FP), and so are PETSc's split reductions (VecDotBegin ...).
 /// Collective. Throws Error(internal).
 PetscVector exact_vector(const Comm& comm, std::int64_t size);
+
+/// exact_vector, or one of the same rows whose operations are PETSc's own. Collective. Throws
+/// Error(internal).
+PetscVector row_vector(const Comm& comm, std::int64_t size, VectorSums sums);
 
 /// An empty basis of such vectors, for a solver to fill: an array of vectors (BVVECS) whose combination in
 /// place goes tile by tile too. `columns` >= 1 is what the solver starts with; it resizes the basis as it

@@ -140,11 +140,12 @@ EigenPairs leading_eigenpairs(const Comm& comm, const RowProduct& product, const
                               const Eigen::MatrixXd& starts, const EigenRequest& request) {
     VectorArray deflated(product, known.vectors);
     VectorArray initial(product, starts);
-    const BasisVectors basis = exact_basis(comm, product.vector(), 1);
+    BasisVectors basis;
+    if (product.sums() == VectorSums::exact) basis = exact_basis(comm, product.vector(), 1);
     Progress progress;
     EigenSolver solver;
     check(EPSCreate(comm.raw(), solver.out()), "EPSCreate");
-    check(EPSSetBV(solver.get(), basis.get()), "EPSSetBV");
+    if (basis.get() != nullptr) check(EPSSetBV(solver.get(), basis.get()), "EPSSetBV");
     configure(solver.get(), product, request, progress);
     if (deflated.size() > 0)
         check(EPSSetDeflationSpace(solver.get(), deflated.size(), deflated.handles()),

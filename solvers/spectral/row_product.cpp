@@ -44,8 +44,8 @@ std::vector<char> asked_rows(const SparseRows& matrix, const GroupBalance& balan
 
 }  // namespace
 
-RowProduct::RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance)
-    : size_(matrix.size), matrix_(std::move(matrix)), vector_(exact_vector(comm, size_)) {
+RowProduct::RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance, VectorSums sums)
+    : size_(matrix.size), sums_(sums), matrix_(std::move(matrix)), vector_(row_vector(comm, size_, sums)) {
     number_columns(comm, balance);
     const PetscInt rows = petsc_int(matrix_.local_rows(), "rows");
     const PetscInt all = petsc_int(size_, "patches");

@@ -5,6 +5,7 @@
 
 #include "solvers/affinity/sparse_rows.hpp"
 #include "solvers/petsc/petsc_handle.hpp"
+#include "solvers/spectral/vector_sums.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
@@ -26,15 +27,18 @@ class RowProduct {
   public:
     /// Rows owned as SparseRows says; their columns are numbered anew inside. Collective. Throws
     /// Error(internal).
-    RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance = {});
+    RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance = {},
+               VectorSums sums = VectorSums::exact);
     RowProduct(const RowProduct&) = delete;
     RowProduct& operator=(const RowProduct&) = delete;
 
-    /// As an operator, which this must outlive; its vectors are those of exact_vector.
+    /// As an operator, which this must outlive; its vectors are those of row_vector.
     [[nodiscard]] Mat matrix() const noexcept { return shell_.get(); }
     /// All 0; solvers duplicate it. Collective where it is duplicated.
     [[nodiscard]] const PetscVector& vector() const noexcept { return vector_; }
     [[nodiscard]] std::int64_t size() const noexcept { return size_; }
+    /// Of its vectors.
+    [[nodiscard]] VectorSums sums() const noexcept { return sums_; }
     /// The products so far.
     [[nodiscard]] std::int64_t count() const noexcept { return count_; }
 
@@ -65,6 +69,7 @@ class RowProduct {
     };
 
     std::int64_t size_ = 0;
+    VectorSums sums_;
     SparseRows matrix_;
     Groups groups_;
     PetscVector vector_;

@@ -208,7 +208,7 @@ EigenPairs sparse_eigenpairs(const Comm& comm, CutOperator& op, int count, const
     EigenRequest request{count - static_cast<int>(pairs.values.size()), options.tolerance,
                          options.max_restarts};
     if (request.wanted <= 0) return pairs;
-    const RowProduct product(comm, std::move(op.matrix), balance);
+    const RowProduct product(comm, std::move(op.matrix), balance, options.sums);
     const EigenPairs found = leading_eigenpairs(comm, product, pairs, start_vector(op, 0), request);
     for (std::size_t k = 0; k < found.values.size(); ++k)
         pairs.append(found.values[k], found.residuals[k], found.vectors.col(static_cast<Eigen::Index>(k)));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/affinity/sparse_rows.hpp"
+#include "solvers/spectral/vector_sums.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
@@ -16,6 +17,7 @@ struct SpectralOptions {
     double tolerance = 1e-10;   ///< residual norm of an eigenpair (the operator has norm 1)
     int max_restarts = 2000;    ///< of the Krylov-Schur method
     double mesh_balance = 0.0;  ///< tau in [0, 1]; not with an offset
+    VectorSums sums = VectorSums::exact;
 };
 
 /// Coordinates of the patches that take part in the cut.
