@@ -49,7 +49,7 @@ grep -q "^  geodesics" "$work/log" || fail "--verbose without steps"
 "$COSEG" run --quiet "${quick[@]}" 2>"$work/log"
 [[ ! -s $work/log ]] || fail "--quiet is not quiet: $(cat "$work/log")"
 "$COSEG" run "${quick[@]}" 2>"$work/log"
-[[ $(wc -l <"$work/log") -eq 7 ]] || fail "a log has not one line a stage: $(cat "$work/log")"
+[[ $(wc -l <"$work/log") -eq 8 ]] || fail "a log has not one line a stage: $(cat "$work/log")"
 if script -qec true /dev/null >"$work/out" 2>&1 </dev/null; then # containers may lack pseudo-terminals
     script -qec "'$COSEG' run --ranks 1 ${quick[*]}" /dev/null >"$work/log" </dev/null
     grep -q "describe.*%.*s left" "$work/log" || fail "no share done and time left on a terminal"
