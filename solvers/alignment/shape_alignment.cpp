@@ -19,7 +19,7 @@ namespace coseg {
 
 namespace {
 
-constexpr double enough_standing = 2.0 / 3.0;  ///< share of the shapes
+constexpr double enough_standing = 0.5;  ///< share of the shapes
 constexpr double clearly_better = 7.0 / 6.0;
 constexpr int turning_rounds = 4;
 constexpr int settling_rounds = 2;
