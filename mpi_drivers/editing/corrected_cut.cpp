@@ -239,8 +239,8 @@ std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const Corre
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(base.collection);
     return std::make_unique<CorrectedParts>(
         comm,
-        CutInput{coefficients, neighbors, overlaps, mesh_of, input.patch_area, input.choice, &input.positions,
-                 nullptr, &features.histograms},
+        CutInput{coefficients, neighbors, overlaps, mesh_of, input.patch_area, input.choice,
+                 input.known_positions(), nullptr, &features.histograms},
         cut_options(input.positions, options), base.cut.confidence);
 }
 

@@ -109,7 +109,7 @@ CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const Pa
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(input.collection);
     return partition_patches(comm,
                              {input.coefficients, neighbors, overlaps, mesh_of, input.patch_area,
-                              input.choice, &input.positions, input.examples, &input.histograms},
+                              input.choice, input.known_positions(), input.examples, &input.histograms},
                              cut_options(input.positions, options));
 }
 

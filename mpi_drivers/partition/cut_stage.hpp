@@ -22,10 +22,15 @@ struct PartitionInput {
     Eigen::Matrix3Xd positions;      ///< 3 x N; 3 x 0 where what is cut are not patches
     /// by which one of several starts is chosen; none with a single one.
     std::vector<ChoiceDescriptor> choice;
-    /// Of --partition diffusion, which clusters them, and of examples, which are followed by them; none
-    /// otherwise.
+    /// Of --partition diffusion, which clusters them; of a choice among starts, whose parts are scored by
+    /// them; and of examples, which are followed by them; none otherwise.
     FeatureMatrices histograms;
     const ExampleLabels* examples = nullptr;  ///< null where there are none
+
+    /// Null where there are none.
+    [[nodiscard]] const Eigen::Matrix3Xd* known_positions() const noexcept {
+        return positions.cols() > 0 ? &positions : nullptr;
+    }
 };
 
 /// Takes from the features what the cut uses; `examples` are not copied. The rest is freed: in a large

@@ -35,6 +35,7 @@ class CorrectedParts {
                    std::vector<double> confidence);
     CorrectedParts(const CorrectedParts&) = delete;
     CorrectedParts& operator=(const CorrectedParts&) = delete;
+    ~CorrectedParts() = default;
 
     /// K x N: about 1 where a patch has the part and 0 elsewhere, from what is said and, with the weight of
     /// a tenth of a shape, from the base. A ridge regression as example_scores makes one, on the leading

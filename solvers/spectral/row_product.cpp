@@ -23,7 +23,7 @@ PetscErrorCode multiply_shell(Mat matrix, Vec x, Vec y) {
 PetscErrorCode create_vectors(Mat matrix, Vec* right, Vec* left) {
     void* product = nullptr;
     PetscErrorCode code = MatShellGetContext(matrix, static_cast<void*>(&product));
-    const Vec like = code == 0 ? static_cast<RowProduct*>(product)->vector().get() : nullptr;
+    Vec like = code == 0 ? static_cast<RowProduct*>(product)->vector().get() : nullptr;
     if (code == 0 && right != nullptr) code = VecDuplicate(like, right);
     if (code == 0 && left != nullptr) code = VecDuplicate(like, left);
     return code;
@@ -153,7 +153,7 @@ void RowProduct::subtract_balance(const double* x, double* y) {
 PetscErrorCode RowProduct::multiply(Vec x, Vec y) {
     ++count_;
     const bool is_sent = needed_.get() != nullptr;
-    const Vec source = is_sent ? needed_.get() : x;
+    Vec source = is_sent ? needed_.get() : x;
     PetscErrorCode code = 0;
     if (is_sent) code = VecScatterBegin(scatter_.get(), x, source, INSERT_VALUES, SCATTER_FORWARD);
     if (is_sent && code == 0) code = VecScatterEnd(scatter_.get(), x, source, INSERT_VALUES, SCATTER_FORWARD);

@@ -31,6 +31,7 @@ class RowProduct {
                VectorSums sums = VectorSums::exact);
     RowProduct(const RowProduct&) = delete;
     RowProduct& operator=(const RowProduct&) = delete;
+    ~RowProduct() = default;
 
     /// As an operator, which this must outlive; its vectors are those of row_vector.
     [[nodiscard]] Mat matrix() const noexcept { return shell_.get(); }
