@@ -1,27 +1,16 @@
 #include "io/reports/edit_page.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/files/byte_cursor.hpp"
 #include "io/reports/page_pieces.hpp"
-#include "io/reports/web_assets.hpp"
-#include "src/base/error.hpp"
 #include "src/base/text.hpp"
 #include "src/pictures/part_colors.hpp"
 
 namespace coseg {
 
 std::string packed_edit_mesh(const TriMesh& mesh, const std::vector<int>& face_of_triangle) {
-    std::string bytes;
-    append_little_endian(bytes, static_cast<std::uint32_t>(mesh.vertex_count()));
-    append_little_endian(bytes, static_cast<std::uint32_t>(mesh.face_count()));
-    for (const double place : mesh.vertices.reshaped()) {
-        const double share = std::clamp(0.5 * (place + 1.0), 0.0, 1.0);
-        append_little_endian(bytes, static_cast<std::uint16_t>(std::lround(65535.0 * share)));
-    }
-    while (bytes.size() % 4 != 0) bytes += '\0';
+    std::string bytes = packed_vertices(mesh);
     for (const int vertex : mesh.faces.reshaped())
         append_little_endian(bytes, static_cast<std::uint32_t>(vertex));
     for (const int face : face_of_triangle) append_little_endian(bytes, static_cast<std::uint32_t>(face));
@@ -29,13 +18,7 @@ std::string packed_edit_mesh(const TriMesh& mesh, const std::vector<int>& face_o
 }
 
 std::string edit_page(const std::string& title, const View& view) {
-    const WebAssets& assets = web_assets();
-    if (!assets.has_libraries()) {
-        throw Error(
-            ExitCode::internal,
-            "this coseg was built without three.js and Chart.js, so it has no page to edit in; install "
-            "libjs-three and libjs-chart.js and build it again");
-    }
+    const WebAssets& assets = assets_of_page("it has no page to edit in");
     nlohmann::ordered_json data;
     data["towards"] = {view.towards.x(), view.towards.y(), view.towards.z()};
     data["up"] = {view.up.x(), view.up.y(), view.up.z()};

@@ -1,6 +1,11 @@
 #include "io/reports/page_pieces.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+
+#include "io/files/byte_cursor.hpp"
+#include "src/base/error.hpp"
 
 namespace coseg {
 
@@ -35,6 +40,25 @@ std::string hex_color(const Color& color) {
         text += digits[channel & 15U];
     }
     return text;
+}
+
+std::string packed_vertices(const TriMesh& mesh) {
+    std::string bytes;
+    append_little_endian(bytes, static_cast<std::uint32_t>(mesh.vertex_count()));
+    append_little_endian(bytes, static_cast<std::uint32_t>(mesh.face_count()));
+    for (const double place : mesh.vertices.reshaped()) {
+        const double share = std::clamp(0.5 * (place + 1.0), 0.0, 1.0);
+        append_little_endian(bytes, static_cast<std::uint16_t>(std::lround(65535.0 * share)));
+    }
+    while (bytes.size() % 4 != 0) bytes += '\0';
+    return bytes;
+}
+
+const WebAssets& assets_of_page(const std::string& lack) {
+    const WebAssets& assets = web_assets();
+    if (assets.has_libraries()) return assets;
+    throw Error(ExitCode::internal, "this coseg was built without three.js and Chart.js, so " + lack +
+                                        "; install libjs-three and libjs-chart.js and build it again");
 }
 
 std::string filled(std::string_view page, const std::map<std::string, std::string, std::less<>>& pieces) {

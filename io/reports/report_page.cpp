@@ -1,7 +1,5 @@
 #include "io/reports/report_page.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -10,7 +8,6 @@
 #include "io/files/byte_cursor.hpp"
 #include "io/reports/page_pieces.hpp"
 #include "io/reports/web_assets.hpp"
-#include "src/base/error.hpp"
 #include "src/base/text.hpp"
 #include "src/pictures/part_colors.hpp"
 
@@ -54,14 +51,7 @@ std::string mesh_elements(const ReportPage& page) {
 
 std::string packed_mesh(const TriMesh& mesh, const std::vector<int>& labels,
                         const std::vector<bool>& is_wrong) {
-    std::string bytes;
-    append_little_endian(bytes, static_cast<std::uint32_t>(mesh.vertex_count()));
-    append_little_endian(bytes, static_cast<std::uint32_t>(mesh.face_count()));
-    for (const double place : mesh.vertices.reshaped()) {
-        const double share = std::clamp(0.5 * (place + 1.0), 0.0, 1.0);
-        append_little_endian(bytes, static_cast<std::uint16_t>(std::lround(65535.0 * share)));
-    }
-    while (bytes.size() % 4 != 0) bytes += '\0';
+    std::string bytes = packed_vertices(mesh);
     const bool is_long = mesh.vertex_count() > most_short_vertices;
     for (const int vertex : mesh.faces.reshaped()) {
         if (is_long)
@@ -79,13 +69,7 @@ std::string packed_mesh(const TriMesh& mesh, const std::vector<int>& labels,
 bool can_write_report_page() { return web_assets().has_libraries(); }
 
 void write_report_page(const std::string& path, const ReportPage& page) {
-    const WebAssets& assets = web_assets();
-    if (!assets.has_libraries()) {
-        throw Error(
-            ExitCode::internal,
-            "this coseg was built without three.js and Chart.js, so it cannot make report.html; install "
-            "libjs-three and libjs-chart.js and build it again");
-    }
+    const WebAssets& assets = assets_of_page("it cannot make report.html");
     const std::string sheet =
         page.sheet_png.empty()
             ? "<p class=\"faint\">The run drew no contact sheet.</p>"

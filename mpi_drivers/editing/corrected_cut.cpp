@@ -11,7 +11,7 @@
 #include "mpi_drivers/editing/linked_places.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
 #include "mpi_drivers/partition/example_stage.hpp"
-#include "solvers/partition/part_shares.hpp"
+#include "solvers/partition/patch_partition.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -215,18 +215,6 @@ std::vector<std::vector<std::string>> reasons(const CorrectionState& state,
     return why;
 }
 
-void describe_cut(const CorrectionBase& base, const std::vector<double>& patch_area, int parts,
-                  CutResult& cut) {
-    const std::vector<int> mesh_of = base.collection.numbering.mesh_of();
-    cut.part_share = mean_area_shares(cut.part_of_patch, parts, patch_area, mesh_of);
-    std::vector<std::set<int>> meshes(at(parts));
-    for (std::size_t i = 0; i < mesh_of.size(); ++i) meshes[at(cut.part_of_patch[i])].insert(mesh_of[i]);
-    cut.meshes_with_part.clear();
-    for (const std::set<int>& of_part : meshes)
-        cut.meshes_with_part.push_back(static_cast<int>(of_part.size()));
-    cut.tree = {};
-}
-
 }  // namespace
 
 std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const CorrectionBase& base,
@@ -285,7 +273,9 @@ CorrectedCut corrected_cut(const Comm& comm, const CorrectionBase& base, const C
     } else if (result.cut.part_of_patch != base.cut.part_of_patch) {
         result.cut.scores = {};  // those of the base are of other parts
     }
-    describe_cut(base, parts.objective().area, state.part_count(), result.cut);
+    describe_parts(base.collection.numbering.mesh_of(), parts.objective().area, state.part_count(),
+                   result.cut);
+    result.cut.tree = {};
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
@@ -58,6 +59,21 @@ std::vector<GlobalPatchOverlap> gather_patch_pairs(const Comm& comm,
                                                    const std::vector<GlobalPatchOverlap>& local,
                                                    int patches) {
     return gathered(comm, local, patches);
+}
+
+std::vector<std::vector<WeightedNeighbor>> weighted_neighbors(const std::vector<GlobalPatchNeighbors>& pairs,
+                                                              int patches) {
+    std::vector<std::vector<WeightedNeighbor>> of(at(patches));
+    for (const GlobalPatchNeighbors& pair : pairs) {
+        of[at(pair.patch_a)].push_back({pair.patch_b, pair.boundary_length});
+        of[at(pair.patch_b)].push_back({pair.patch_a, pair.boundary_length});
+    }
+    for (std::vector<WeightedNeighbor>& neighbors : of) {
+        double sum = 0.0;
+        for (const WeightedNeighbor& n : neighbors) sum += n.weight;
+        for (WeightedNeighbor& n : neighbors) n.weight = sum > 0.0 ? n.weight / sum : 0.0;
+    }
+    return of;
 }
 
 }  // namespace coseg

@@ -45,4 +45,15 @@ std::vector<GlobalPatchNeighbors> gather_patch_pairs(const Comm& comm,
 std::vector<GlobalPatchOverlap> gather_patch_pairs(const Comm& comm,
                                                    const std::vector<GlobalPatchOverlap>& local, int patches);
 
+/// A neighbour of a patch.
+struct WeightedNeighbor {
+    int patch = 0;
+    double weight =
+        0.0;  ///< length of the common boundary; the weights of a patch's neighbours sum to 1, or to 0
+};
+
+/// Of each of `patches` patches, in the order of the pairs. pairs: of all meshes.
+std::vector<std::vector<WeightedNeighbor>> weighted_neighbors(const std::vector<GlobalPatchNeighbors>& pairs,
+                                                              int patches);
+
 }  // namespace coseg

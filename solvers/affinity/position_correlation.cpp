@@ -110,9 +110,11 @@ void weigh_by_position(const PositionFrame& frame, const Eigen::Matrix3Xd& posit
     }
 }
 
-Eigen::Matrix3Xd correlated_places(const PositionFrame& frame, const Eigen::Matrix3Xd& positions) {
+Eigen::Matrix3Xd correlated_places(const PositionFrame& frame, const Eigen::Matrix3Xd* positions,
+                                   Eigen::Index patches) {
+    if (positions == nullptr) return Eigen::Matrix3Xd::Zero(3, patches);
     const Eigen::Vector3d scale = frame.correlation / std::sqrt(3.0);
-    return scale.asDiagonal() * (frame.directions.transpose() * (positions.colwise() - frame.mean));
+    return scale.asDiagonal() * (frame.directions.transpose() * (positions->colwise() - frame.mean));
 }
 
 }  // namespace coseg

@@ -28,7 +28,8 @@ void weigh_by_position(const PositionFrame& frame, const Eigen::Matrix3Xd& posit
 
 /// 3 x N: the coordinates of the positions in the frame, times their correlations over sqrt(3): places
 /// count as far as shapes stand alike, and all three as much as one coordinate of spread 1. `positions` as
-/// above.
-Eigen::Matrix3Xd correlated_places(const PositionFrame& frame, const Eigen::Matrix3Xd& positions);
+/// above; zeros where they are null.
+Eigen::Matrix3Xd correlated_places(const PositionFrame& frame, const Eigen::Matrix3Xd* positions,
+                                   Eigen::Index patches);
 
 }  // namespace coseg

@@ -32,16 +32,6 @@ constexpr double forbidden = 1e7;
 /// Columns that are added up together, so that sums have one order.
 constexpr Eigen::Index columns_at_once = 2048;
 
-GraphOptions graph_options(const CutOptions& options, bool complete) {
-    const bool placed = std::any_of(options.starts.begin(), options.starts.end(),
-                                    [](const CutStart& start) { return start.graph.placed; });
-    return {.form = options.form,
-            .minima_rule = options.minima_rule,
-            .drop_below = options.drop_below,
-            .placed = placed,
-            .complete = complete};
-}
-
 int part_count(const SaidParts& said) { return static_cast<int>(said.area.rows()); }
 
 /// The part of those that the mesh may have with the best score.
@@ -70,24 +60,19 @@ CorrectedParts::CorrectedParts(const Comm& comm, const CutInput& input, const Cu
                                std::vector<double> confidence)
     : patch_area_(input.patch_area), mesh_of_(input.mesh_of), weights_(options.examples) {
     const auto patches = static_cast<int>(mesh_of_.size());
-    const std::int64_t entries = 2 * all_sum(comm, static_cast<std::int64_t>(input.coefficients.rows.size()));
-    const bool one_rank = entries <= options.one_rank_entries;
-    neighbors_ = gather_patch_pairs(comm, input.neighbors_local, patches);
-    overlaps_ = gather_patch_pairs(comm, input.overlaps_local, patches);
-    const GraphInput graphs{input.coefficients, neighbors_, overlaps_, mesh_of_, input.positions};
-    terms_ = graph_terms(comm, graphs, graph_options(options, one_rank));
-    const bool has_links = one_rank && options.choice.links > 0.0;
+    CutGraphs cut = cut_graphs(comm, input, options);
+    terms_ = std::move(cut.terms);
     agree(comm, [&] {
         if (input.features == nullptr || input.features->columns() != patches)
             throw Error(ExitCode::internal, "the features of corrected parts are not of all patches");
         for (int i = 0; i < patches; ++i)
             weight_.push_back(patch_area_[at(i)] * (confidence.empty() ? 1.0 : confidence[at(i)]));
         reduce_features(*input.features);
-        add_neighborhoods();
-        add_places(input.positions);
+        add_neighborhoods(cut.neighbors);
+        x_.bottomRows<3>() = correlated_places(terms_.frame, input.positions, patches).cast<float>();
         sum_base();
-        objective_ = partition_objective({neighbors_, overlaps_, input.descriptors, mesh_of_, patch_area_,
-                                          has_links ? &terms_.base : nullptr},
+        objective_ = partition_objective({cut.neighbors, cut.overlaps, input.descriptors, mesh_of_,
+                                          patch_area_, cut.links_count ? &terms_.base : nullptr},
                                          options.choice);
     });
 }
@@ -121,29 +106,13 @@ void CorrectedParts::reduce_features(const FeatureMatrices& features) {
 }
 
 /// The next rows: the mean of the neighbours, weighted by the length of the common boundary.
-void CorrectedParts::add_neighborhoods() {
+void CorrectedParts::add_neighborhoods(const std::vector<GlobalPatchNeighbors>& pairs) {
     const Eigen::Index kept = (x_.rows() - 3) / 2;
-    std::vector<double> lengths(mesh_of_.size(), 0.0);
-    for (const GlobalPatchNeighbors& pair : neighbors_) {
-        lengths[at(pair.patch_a)] += pair.boundary_length;
-        lengths[at(pair.patch_b)] += pair.boundary_length;
+    const auto neighbors = weighted_neighbors(pairs, static_cast<int>(x_.cols()));
+    for (Eigen::Index i = 0; i < x_.cols(); ++i) {
+        for (const WeightedNeighbor& near : neighbors[at(i)])
+            x_.col(i).segment(kept, kept) += static_cast<float>(near.weight) * x_.col(near.patch).head(kept);
     }
-    for (const GlobalPatchNeighbors& pair : neighbors_) {
-        for (const auto& [to, from] : {std::pair{pair.patch_a, pair.patch_b}, {pair.patch_b, pair.patch_a}}) {
-            if (lengths[at(to)] <= 0.0) continue;
-            const auto share = static_cast<float>(pair.boundary_length / lengths[at(to)]);
-            x_.col(to).segment(kept, kept) += share * x_.col(from).head(kept);
-        }
-    }
-}
-
-/// The last three rows; zeros where shapes do not stand alike. As in example_scores.
-void CorrectedParts::add_places(const Eigen::Matrix3Xd* positions) {
-    if (positions == nullptr || positions->cols() != x_.cols()) return;
-    const Eigen::Vector3d scale = terms_.frame.correlation / std::sqrt(3.0);
-    const Eigen::Matrix3Xd places = scale.asDiagonal() * (terms_.frame.directions.transpose() *
-                                                          (positions->colwise() - terms_.frame.mean));
-    x_.bottomRows<3>() = places.cast<float>();
 }
 
 void CorrectedParts::sum_base() {
@@ -197,12 +166,7 @@ Eigen::MatrixXd CorrectedParts::scores(const SaidParts& said) const {
     const Eigen::VectorXd constant = mean_y - slope * mean_x;
     Eigen::MatrixXd scores =
         ((slope.cast<float>() * x_).colwise() + constant.cast<float>().eval()).cast<double>();
-    const std::vector<int> known = known_labels({said.area}, patch_area_);
-    for (std::size_t i = 0; i < known.size(); ++i) {
-        if (known[i] < 0) continue;
-        scores.col(static_cast<Eigen::Index>(i)).setZero();
-        scores(known[i], static_cast<Eigen::Index>(i)) = 1.0;
-    }
+    hold_known_labels({said.area}, patch_area_, scores);
     return scores;
 }
 

@@ -56,15 +56,12 @@ class CorrectedParts {
 
   private:
     void reduce_features(const FeatureMatrices& features);
-    void add_neighborhoods();
-    void add_places(const Eigen::Matrix3Xd* positions);
+    void add_neighborhoods(const std::vector<GlobalPatchNeighbors>& pairs);
     void sum_base();
 
     std::vector<double> patch_area_;
     std::vector<int> mesh_of_;
     std::vector<double> weight_;  ///< of each patch as an example of the base: area times confidence
-    std::vector<GlobalPatchNeighbors> neighbors_;
-    std::vector<GlobalPatchOverlap> overlaps_;
     GraphTerms terms_;
     Eigen::MatrixXf x_;             ///< d x N: reduced features, those of the neighbourhood, places
     Eigen::MatrixXd base_squares_;  ///< d x d: sum over the patches of weight x x^T

@@ -16,31 +16,6 @@ constexpr double ridge = 1.0;
 
 using Features = Eigen::Map<const Eigen::MatrixXd>;
 
-struct Neighbor {
-    int patch = 0;
-    double weight = 0.0;  ///< the weights of a patch sum to 1
-};
-
-std::vector<std::vector<Neighbor>> weighted_neighbors(const std::vector<GlobalPatchNeighbors>& pairs,
-                                                      Eigen::Index patches) {
-    std::vector<std::vector<Neighbor>> of(at(patches));
-    for (const GlobalPatchNeighbors& pair : pairs) {
-        of[at(pair.patch_a)].push_back({pair.patch_b, pair.boundary_length});
-        of[at(pair.patch_b)].push_back({pair.patch_a, pair.boundary_length});
-    }
-    for (std::vector<Neighbor>& neighbors : of) {
-        double sum = 0.0;
-        for (const Neighbor& n : neighbors) sum += n.weight;
-        for (Neighbor& n : neighbors) n.weight = sum > 0.0 ? n.weight / sum : 0.0;
-    }
-    return of;
-}
-
-Eigen::Matrix3Xd places_of(const ScoreInput& input) {
-    if (input.positions == nullptr) return Eigen::Matrix3Xd::Zero(3, input.features.columns());
-    return correlated_places(input.frame, *input.positions);
-}
-
 /// The examples, one a column.
 struct Training {
     Eigen::MatrixXd x;  ///< (2 D + 3) x n: features, those of the neighbourhood, places
@@ -48,7 +23,7 @@ struct Training {
     Eigen::VectorXd weight;
 };
 
-Training training_set(const Features& features, const std::vector<std::vector<Neighbor>>& neighbors,
+Training training_set(const Features& features, const std::vector<std::vector<WeightedNeighbor>>& neighbors,
                       const Eigen::Matrix3Xd& places, const ExampleLabels& examples) {
     std::vector<Eigen::Index> said;
     for (Eigen::Index i = 0; i < examples.area.cols(); ++i) {
@@ -62,7 +37,7 @@ Training training_set(const Features& features, const std::vector<std::vector<Ne
     for (Eigen::Index k = 0; k < n; ++k) {
         const Eigen::Index i = said[at(k)];
         set.x.col(k).head(d) = features.col(i);
-        for (const Neighbor& near : neighbors[at(i)])
+        for (const WeightedNeighbor& near : neighbors[at(i)])
             set.x.col(k).segment(d, d) += near.weight * features.col(near.patch);
         set.x.col(k).tail<3>() = places.col(i);
         set.weight(k) = examples.area.col(i).sum();
@@ -101,14 +76,14 @@ LinearScore fitted(const Training& set) {
 /// K x N, from the scores of the features alone and of the neighbourhoods alone, so that no rank holds the
 /// features of the neighbourhoods of all patches.
 Eigen::MatrixXd predicted(const LinearScore& fit, const Features& features,
-                          const std::vector<std::vector<Neighbor>>& neighbors,
+                          const std::vector<std::vector<WeightedNeighbor>>& neighbors,
                           const Eigen::Matrix3Xd& places) {
     const Eigen::Index d = features.rows();
     Eigen::MatrixXd scores = fit.slope.leftCols(d) * features;
     const Eigen::MatrixXd as_neighbor = fit.slope.middleCols(d, d) * features;
     const Eigen::VectorXd constant = fit.mean_y - fit.slope * fit.mean_x;
     for (Eigen::Index i = 0; i < scores.cols(); ++i) {
-        for (const Neighbor& near : neighbors[at(i)])
+        for (const WeightedNeighbor& near : neighbors[at(i)])
             scores.col(i) += near.weight * as_neighbor.col(near.patch);
         scores.col(i) += fit.slope.rightCols<3>() * places.col(i) + constant;
     }
@@ -129,23 +104,28 @@ std::vector<int> known_labels(const ExampleLabels& examples, const std::vector<d
     return labels;
 }
 
-Eigen::MatrixXd example_scores(const ScoreInput& input, const ExampleLabels& examples) {
-    const Features features(input.features.data(), input.features.dimension(), input.features.columns());
-    const auto neighbors = weighted_neighbors(input.neighbors, features.cols());
-    const Eigen::Matrix3Xd places = places_of(input);
-    const LinearScore fit = fitted(training_set(features, neighbors, places, examples));
-    Eigen::MatrixXd scores = predicted(fit, features, neighbors, places);
-    const std::vector<int> known = known_labels(examples, input.patch_area);
-    const Eigen::Index labels = scores.rows();
-    for (Eigen::Index label = 0; label < labels; ++label) {
-        if (examples.area.row(label).sum() <= 0.0)
-            scores.row(label).setConstant(1.0 / static_cast<double>(labels));
-    }
+void hold_known_labels(const ExampleLabels& examples, const std::vector<double>& patch_area,
+                       Eigen::MatrixXd& scores) {
+    const std::vector<int> known = known_labels(examples, patch_area);
     for (std::size_t i = 0; i < known.size(); ++i) {
         if (known[i] < 0) continue;
         scores.col(static_cast<Eigen::Index>(i)).setZero();
         scores(known[i], static_cast<Eigen::Index>(i)) = 1.0;
     }
+}
+
+Eigen::MatrixXd example_scores(const ScoreInput& input, const ExampleLabels& examples) {
+    const Features features(input.features.data(), input.features.dimension(), input.features.columns());
+    const auto neighbors = weighted_neighbors(input.neighbors, static_cast<int>(features.cols()));
+    const Eigen::Matrix3Xd places = correlated_places(input.frame, input.positions, features.cols());
+    const LinearScore fit = fitted(training_set(features, neighbors, places, examples));
+    Eigen::MatrixXd scores = predicted(fit, features, neighbors, places);
+    const Eigen::Index labels = scores.rows();
+    for (Eigen::Index label = 0; label < labels; ++label) {
+        if (examples.area.row(label).sum() <= 0.0)
+            scores.row(label).setConstant(1.0 / static_cast<double>(labels));
+    }
+    hold_known_labels(examples, input.patch_area, scores);
     return scores;
 }
 

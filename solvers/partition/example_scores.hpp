@@ -22,6 +22,10 @@ struct ExampleLabels {
 /// equal ones the lowest. -1 for the others.
 std::vector<int> known_labels(const ExampleLabels& examples, const std::vector<double>& patch_area);
 
+/// Gives the patches of known_labels the score 1 for their label and 0 for the others. scores: K x N.
+void hold_known_labels(const ExampleLabels& examples, const std::vector<double>& patch_area,
+                       Eigen::MatrixXd& scores);
+
 /// What the prediction looks at, the same on all ranks.
 struct ScoreInput {
     const FeatureMatrices& features;                     ///< D x N

@@ -41,17 +41,12 @@ struct GroupSlope {
     }
 };
 
-Eigen::Matrix3Xd places_or_zeros(const PatchLooks& looks) {
-    if (looks.positions == nullptr) return Eigen::Matrix3Xd::Zero(3, looks.features.columns());
-    return correlated_places(looks.frame, *looks.positions);
-}
-
 class CrossFit {
   public:
     CrossFit(const PatchLooks& looks, const std::vector<int>& part_of_patch, int parts)
         : looks_(looks),
           features_(looks.features.data(), looks.features.dimension(), looks.features.columns()),
-          places_(places_or_zeros(looks)),
+          places_(correlated_places(looks.frame, looks.positions, features_.cols())),
           part_of_patch_(part_of_patch),
           parts_(parts),
           meshes_(looks.mesh_of.empty() ? 0 : 1 + looks.mesh_of.back()) {

@@ -130,12 +130,6 @@ std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::
     return counts;
 }
 
-void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& patch_area, int parts,
-                    CutResult& result) {
-    result.part_share = mean_area_shares(result.part_of_patch, parts, patch_area, mesh_of);
-    result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
-}
-
 bool has_all_parts(const CutResult& result) {
     return std::none_of(result.part_share.begin(), result.part_share.end(),
                         [](double share) { return share <= 0.0; });
@@ -191,6 +185,31 @@ std::vector<CutStart> pooled_starts(int parts, bool placed) {
 
 std::vector<CutStart> single_start(int parts, double adjacency) { return {{{adjacency, adjacency}, parts}}; }
 
+void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& patch_area, int parts,
+                    CutResult& result) {
+    result.part_share = mean_area_shares(result.part_of_patch, parts, patch_area, mesh_of);
+    result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
+}
+
+CutGraphs cut_graphs(const Comm& comm, const CutInput& input, const CutOptions& options) {
+    // At most: an entry and its transpose may fall together, never apart.
+    const std::int64_t entries = 2 * all_sum(comm, static_cast<std::int64_t>(input.coefficients.rows.size()));
+    const auto patches = static_cast<int>(input.mesh_of.size());
+    CutGraphs cut;
+    cut.one_rank = entries <= options.one_rank_entries;
+    cut.links_count = cut.one_rank && options.choice.links > 0.0;
+    cut.neighbors = gather_patch_pairs(comm, input.neighbors_local, patches);
+    cut.overlaps = gather_patch_pairs(comm, input.overlaps_local, patches);
+    cut.terms =
+        graph_terms(comm, {input.coefficients, cut.neighbors, cut.overlaps, input.mesh_of, input.positions},
+                    {.form = options.form,
+                     .minima_rule = options.minima_rule,
+                     .drop_below = options.drop_below,
+                     .placed = asks_for_positions(options),
+                     .complete = cut.one_rank});
+    return cut;
+}
+
 CutResult described_partition(const std::vector<int>& labels, int parts, const std::vector<int>& mesh_of,
                               const std::vector<double>& patch_area) {
     CutResult result;
@@ -207,22 +226,10 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
         describe_parts(input.mesh_of, input.patch_area, 1, result);
         return result;
     }
-    // At most: an entry and its transpose may fall together, never apart.
-    const std::int64_t entries = 2 * all_sum(comm, static_cast<std::int64_t>(input.coefficients.rows.size()));
-    const bool one_rank = entries <= options.one_rank_entries;
-    const auto patches = static_cast<int>(input.mesh_of.size());
-    const auto neighbors = gather_patch_pairs(comm, input.neighbors_local, patches);
-    const auto overlaps = gather_patch_pairs(comm, input.overlaps_local, patches);
+    const auto [neighbors, overlaps, terms, one_rank, links_count] = cut_graphs(comm, input, options);
     const GraphInput graphs{input.coefficients, neighbors, overlaps, input.mesh_of, input.positions};
-    const GraphTerms terms = graph_terms(comm, graphs,
-                                         {.form = options.form,
-                                          .minima_rule = options.minima_rule,
-                                          .drop_below = options.drop_below,
-                                          .placed = asks_for_positions(options),
-                                          .complete = one_rank});
-    const bool has_links = one_rank && options.choice.links > 0.0;
     const PartitionEvidence evidence{neighbors,     overlaps,         input.descriptors,
-                                     input.mesh_of, input.patch_area, has_links ? &terms.base : nullptr};
+                                     input.mesh_of, input.patch_area, links_count ? &terms.base : nullptr};
     const ClusteringTask clustering{graphs,       terms, options.starts, options.spectral, options.drop_below,
                                     options.parts};
     std::vector<PartitionCandidate> clusters = start_clusterings(comm, clustering, one_rank);

@@ -8,6 +8,7 @@
 #include "solvers/affinity/affinity.hpp"
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/position_correlation.hpp"
+#include "solvers/partition/cut_graphs.hpp"
 #include "solvers/partition/labelled_parts.hpp"
 #include "solvers/partition/partition_terms.hpp"
 #include "solvers/spectral/spectral_embedding.hpp"
@@ -59,10 +60,26 @@ struct CutOptions {
     std::int64_t one_rank_entries = 60'000'000;
 };
 
+/// What the starts and the choice of a cut are made of.
+struct CutGraphs {
+    std::vector<GlobalPatchNeighbors> neighbors;  ///< of all meshes
+    std::vector<GlobalPatchOverlap> overlaps;     ///< likewise
+    GraphTerms terms;
+    bool one_rank = true;      ///< whether a graph is small enough for one rank, and `terms` are complete
+    bool links_count = false;  ///< whether the choice counts links
+};
+
+/// Collective. Throws AgreedError.
+CutGraphs cut_graphs(const Comm& comm, const CutInput& input, const CutOptions& options);
+
 /// A partition that was found in another way, numbered and described as partition_patches does, without
 /// starts. labels: 0 .. parts-1 for each patch.
 CutResult described_partition(const std::vector<int>& labels, int parts, const std::vector<int>& mesh_of,
                               const std::vector<double>& patch_area);
+
+/// Fills in part_share and meshes_with_part for result.part_of_patch, 0 .. parts-1.
+void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& patch_area, int parts,
+                    CutResult& result);
 
 /// Cuts the patches of all meshes into parts.
 ///
