@@ -29,6 +29,7 @@ std::string edit_page(const std::string& title, const View& view) {
                                      {"LICENCES", escaped(assets.licences)},
                                      {"THREE", inside_script(assets.three)},
                                      {"CONTROLS", inside_script(assets.controls)},
+                                     {"ELEMENTS", inside_script(assets.elements)},
                                      {"SCRIPT", inside_script(assets.edit_script)}});
 }
 

@@ -84,6 +84,7 @@ void write_report_page(const std::string& path, const ReportPage& page) {
                                           {"THREE", inside_script(assets.three)},
                                           {"CONTROLS", inside_script(assets.controls)},
                                           {"CHART", inside_script(assets.chart)},
+                                          {"ELEMENTS", inside_script(assets.elements)},
                                           {"SCRIPT", inside_script(assets.script)}}));
 }
 

@@ -9,6 +9,7 @@ struct WebAssets {
     std::string_view page;  ///< with @NAME@ where a piece goes
     std::string_view style;
     std::string_view script;
+    std::string_view elements;   ///< the beginning of every page's script
     std::string_view edit_page;  ///< as `page`, of coseg edit
     std::string_view edit_style;
     std::string_view edit_script;

@@ -60,6 +60,11 @@ struct SentLabels {
     }
 };
 
+void refuse_unknown_shape(const Collection& collection, int mesh) {
+    if (mesh < 0 || mesh >= static_cast<int>(collection.meshes.size()))
+        throw Error(ExitCode::usage, "there is no shape " + std::to_string(mesh));
+}
+
 void rename_acts(CorrectionFile& file) {
     for (std::size_t k = 0; k < file.acts.size(); ++k) file.acts[k].where = "act " + std::to_string(k + 1);
 }
@@ -208,8 +213,7 @@ Correction EditSession::label_of_region(int mesh, int face, FaceRegion region, i
     correction.kind = CorrectionKind::label;
     correction.part = part;
     agree(comm_, [&] {
-        if (mesh < 0 || mesh >= static_cast<int>(base_.collection.meshes.size()))
-            throw Error(ExitCode::usage, "there is no shape " + std::to_string(mesh));
+        refuse_unknown_shape(base_.collection, mesh);
         const int faces = base_.collection.meshes[at(mesh)].input_faces;
         if (face < 0 || face >= faces)
             throw Error(ExitCode::usage, "the shape has " + std::to_string(faces) + " faces, counted from 0");
@@ -238,10 +242,7 @@ Correction EditSession::label_of_region(int mesh, int face, FaceRegion region, i
 Correction EditSession::confirmation_of(int mesh) {
     Correction correction;
     correction.kind = CorrectionKind::confirm;
-    agree(comm_, [&] {
-        if (mesh < 0 || mesh >= static_cast<int>(base_.collection.meshes.size()))
-            throw Error(ExitCode::usage, "there is no shape " + std::to_string(mesh));
-    });
+    agree(comm_, [&] { refuse_unknown_shape(base_.collection, mesh); });
     correction.shape = base_.collection.meshes[at(mesh)].name;
     correction.labels = labels(mesh).part;
     return correction;

@@ -1,13 +1,11 @@
 #include "solvers/affinity/sparse_rows.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
-#include <string>
 #include <tuple>
 
-#include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/owner_exchange.hpp"
 
 namespace coseg {
 
@@ -31,60 +29,6 @@ std::vector<std::int64_t> sort_by_row(BlockRange range, std::vector<SparseEntry>
         std::sort(entries.begin() + starts[r], entries.begin() + starts[r + 1], before);
     }
     return starts;
-}
-
-/// Counts of entries for each rank, and where each rank's part starts.
-struct Envelope {
-    std::vector<int> counts;
-    std::vector<int> starts;
-    std::int64_t all = 0;
-
-    explicit Envelope(const std::vector<std::int64_t>& wanted)
-        : counts(wanted.size()), starts(wanted.size()) {
-        for (std::size_t r = 0; r < wanted.size(); ++r) {
-            counts[r] = static_cast<int>(wanted[r]);
-            starts[r] = static_cast<int>(all);
-            all += wanted[r];
-        }
-    }
-};
-
-std::vector<std::int64_t> counts_by_owner(const Comm& comm, std::int64_t size,
-                                          const std::vector<SparseEntry>& entries) {
-    std::vector<std::int64_t> counts(at(comm.size()), 0);
-    for (const SparseEntry& e : entries) {
-        ++counts[at(block_owner(size, comm.size(), e.row, row_tile))];
-    }
-    return counts;
-}
-
-std::vector<std::int64_t> exchange_counts(const Comm& comm, const std::vector<std::int64_t>& outgoing) {
-    std::vector<std::int64_t> incoming(outgoing.size());
-    MPI_Alltoall(outgoing.data(), 1, MPI_INT64_T, incoming.data(), 1, MPI_INT64_T, comm.raw());
-    return incoming;
-}
-
-void refuse_overflow(const Comm& comm, const std::vector<std::int64_t>& outgoing,
-                     const std::vector<std::int64_t>& incoming) {
-    agree(comm, [&] {
-        for (const auto* counts : {&outgoing, &incoming}) {
-            if (std::accumulate(counts->begin(), counts->end(), std::int64_t{0}) >
-                std::numeric_limits<int>::max()) {
-                throw Error(ExitCode::internal, "a rank holds more than 2^31 affinities; use more ranks");
-            }
-        }
-    });
-}
-
-std::vector<SparseEntry> pack_by_owner(const Comm& comm, std::int64_t size, const Envelope& out,
-                                       const std::vector<SparseEntry>& entries) {
-    std::vector<int> next = out.starts;
-    std::vector<SparseEntry> packed(entries.size());
-    for (const SparseEntry& e : entries) {
-        const int owner = block_owner(size, comm.size(), e.row, row_tile);
-        packed[at(next[at(owner)]++)] = e;
-    }
-    return packed;
 }
 
 }  // namespace
@@ -113,20 +57,9 @@ SparseRows rows_from_entries(std::int64_t size, BlockRange range, std::vector<Sp
 }
 
 SparseRows exchange_entries(const Comm& comm, std::int64_t size, const std::vector<SparseEntry>& entries) {
-    const std::vector<std::int64_t> outgoing = counts_by_owner(comm, size, entries);
-    const std::vector<std::int64_t> incoming = exchange_counts(comm, outgoing);
-    refuse_overflow(comm, outgoing, incoming);
-    const Envelope out(outgoing);
-    const Envelope in(incoming);
-    std::vector<SparseEntry> packed = pack_by_owner(comm, size, out, entries);
-    std::vector<SparseEntry> mine(at(in.all));
-    MPI_Datatype entry_type = MPI_DATATYPE_NULL;
-    MPI_Type_contiguous(static_cast<int>(sizeof(SparseEntry)), MPI_BYTE, &entry_type);
-    MPI_Type_commit(&entry_type);
-    MPI_Alltoallv(packed.data(), out.counts.data(), out.starts.data(), entry_type, mine.data(),
-                  in.counts.data(), in.starts.data(), entry_type, comm.raw());
-    MPI_Type_free(&entry_type);
-    packed = {};
+    std::vector<SparseEntry> mine = sent_to_owners(
+        comm, entries, [&](const SparseEntry& e) { return block_owner(size, comm.size(), e.row, row_tile); },
+        "affinities");
     return rows_from_entries(size, block_range(size, comm.size(), comm.rank(), row_tile), std::move(mine));
 }
 

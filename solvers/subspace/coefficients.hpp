@@ -24,4 +24,7 @@ struct SparseCoefficients {
     std::vector<double> values;
 };
 
+/// ||w_ij||_2 over the features, of each entry.
+std::vector<double> pair_norms(const SparseCoefficients& coefficients);
+
 }  // namespace coseg

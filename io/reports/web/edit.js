@@ -1,15 +1,6 @@
 "use strict";
 // The page of coseg edit: shows shapes, sends what a person does to the server, and shows what follows.
 (function () {
-  const data = JSON.parse(document.getElementById("data").textContent);
-  const element = (id) => document.getElementById(id);
-  const make = (tag, parent, text, className) => {
-    const made = document.createElement(tag);
-    if (text !== undefined) made.textContent = text;
-    if (className) made.className = className;
-    if (parent) parent.appendChild(made);
-    return made;
-  };
   const percent = (share) => (100 * share).toFixed(0) + " %";
   const root = location.pathname.replace(/[^/]*$/, "");
 

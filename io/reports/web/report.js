@@ -1,20 +1,11 @@
 "use strict";
 // The report's page: reads the data that coseg put into it; draws with three.js and Chart.js.
 (function () {
-  const data = JSON.parse(document.getElementById("data").textContent);
   const report = data.report;
   const shapes = report.meshes.map((mesh, number) => Object.assign({ number }, mesh, data.shapes[number]));
   const partCount = report.options.parts;
-  const element = (id) => document.getElementById(id);
   const colorOf = (part) => data.colors[part % data.colors.length];
   const percent = (share) => (100 * share).toFixed(1) + " %";
-  const make = (tag, parent, text, className) => {
-    const made = document.createElement(tag);
-    if (text !== undefined) made.textContent = text;
-    if (className) made.className = className;
-    if (parent) parent.appendChild(made);
-    return made;
-  };
   const significant = (value) => (value === 0 ? "0" : Math.abs(value) < 1e-3 ? Number(value).toExponential(1) : Number(value).toPrecision(3));
 
   function fillHeading() {
