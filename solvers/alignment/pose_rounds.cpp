@@ -19,6 +19,8 @@ namespace {
 constexpr int hashed_starts = 24;
 constexpr int tried_turns = 40;  ///< beside those by right angles
 constexpr double as_good = 0.9;
+constexpr double outlier_gain = 2.0;
+constexpr double outlier_share_of_median = 0.5;
 constexpr int pairs_of_a_shape = 4;
 constexpr double most_scale = 2.0;
 
@@ -216,6 +218,35 @@ void PoseRounds::fit(FitStarts starts) {
         pose.rotation = sign * best.rotation;
         pose.agreement = best.agreement;
         return pose;
+    });
+}
+
+ShapePose PoseRounds::turned_outlier(int mesh, const LinkedPoints& points, double enough) const {
+    ShapePose pose = poses_[at(mesh)];
+    pose.found = true;
+    pose.agreement = agreement(points, pose.rotation);
+    if (pose.is_turned()) {
+        const FittedRotation again = fitted_near(points, pose.rotation);
+        pose.rotation = again.rotation;
+        pose.agreement = again.agreement;
+        return pose;
+    }
+    const std::uint64_t seed = hash_words({input_.seed, input_.mesh_keys[at(mesh)]});
+    const FittedRotation best = fitted(points, hashed_rotations(hashed_starts, seed));
+    if (best.agreement < outlier_gain * pose.agreement || best.agreement < enough) return pose;
+    pose.rotation = best.rotation;
+    pose.agreement = best.agreement;
+    return pose;
+}
+
+void PoseRounds::turn_outliers() {
+    std::vector<double> agreements;
+    for (const ShapePose& pose : poses_) agreements.push_back(pose.agreement);
+    const auto middle = agreements.begin() + std::ssize(agreements) / 2;
+    std::nth_element(agreements.begin(), middle, agreements.end());
+    const double enough = outlier_share_of_median * *middle;
+    round([&](int mesh, const std::vector<PatchLink>& links) {
+        return links.empty() ? poses_[at(mesh)] : turned_outlier(mesh, points_of(links), enough);
     });
 }
 

@@ -40,6 +40,9 @@ class PoseRounds {
     /// Begins anew from the moments of pairs (spectral_rotations.hpp).
     void start_from_moments();
     void fit(FitStarts starts);
+    /// Turns each shape whose links then agree at least twice as well as now, and half as well as those of
+    /// the median shape do now; one that was turned before is fitted again. The others stay.
+    void turn_outliers();
     /// Reflects a shape where its agreement then is `better` times what it was.
     void reflect(double better);
     /// Half a step towards the scale and the translation that suit the others best. The geometric mean of the
@@ -58,6 +61,8 @@ class PoseRounds {
     void measure();
     [[nodiscard]] LinkedPoints points_of(const std::vector<PatchLink>& links) const;
     [[nodiscard]] bool is_in_turn(int mesh) const;
+    /// The pose of a shape for turn_outliers; `enough`: the least agreement of a turn that is taken.
+    [[nodiscard]] ShapePose turned_outlier(int mesh, const LinkedPoints& points, double enough) const;
     [[nodiscard]] ShapePose moved(int mesh, const std::vector<PatchLink>& links) const;
 
     const Comm& comm_;

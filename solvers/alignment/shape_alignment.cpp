@@ -23,6 +23,7 @@ constexpr double enough_standing = 0.5;  ///< share of the shapes
 constexpr double clearly_better = 7.0 / 6.0;
 constexpr int turning_rounds = 4;
 constexpr int settling_rounds = 2;
+constexpr int outlier_rounds = 3;
 constexpr int similarity_rounds = 8;
 
 double mean_agreement(const std::vector<ShapePose>& poses) {
@@ -68,6 +69,22 @@ void turn(std::vector<ShapePose>& poses, const Eigen::Matrix3d& frame) {
     }
 }
 
+/// Most shapes stand alike: these stay, and so does their frame.
+ShapeAlignment outliers_turned(PoseRounds& rounds, ShapeAlignment alignment) {
+    for (int round = 0; round < outlier_rounds; ++round) rounds.turn_outliers();
+    const auto turned = std::count_if(rounds.poses().begin(), rounds.poses().end(),
+                                      [](const ShapePose& pose) { return pose.is_turned(); });
+    if (turned == 0)
+        return without_poses(alignment,
+                             percent(alignment.standing_share, 0) + " stand like the others already");
+    alignment.agreement_after = mean_agreement(rounds.poses());
+    for (int round = 0; round < similarity_rounds; ++round) rounds.fit_scale_and_translation();
+    alignment.shapes = rounds.poses();
+    alignment.reason = std::to_string(turned) + " of " + std::to_string(rounds.poses().size()) +
+                       " turned to stand like the others: " + agreement_text(alignment);
+    return alignment;
+}
+
 }  // namespace
 
 ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input) {
@@ -82,9 +99,7 @@ ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input) {
     alignment.standing_share = rounds.standing_share();
     alignment.agreement_before = mean_agreement(rounds.poses());
     if (!(alignment.agreement_before > 0.0)) return without_poses(alignment, "no shape has links to others");
-    if (alignment.standing_share >= enough_standing)
-        return without_poses(alignment,
-                             percent(alignment.standing_share, 0) + " stand like the others already");
+    if (alignment.standing_share >= enough_standing) return outliers_turned(rounds, std::move(alignment));
     rounds.set(best_beginning(rounds));
     for (int round = 0; round < turning_rounds; ++round) rounds.fit(FitStarts::hashed);
     for (int round = 0; round < 2; ++round) rounds.reflect(clearly_better);

@@ -22,10 +22,12 @@ struct AlignmentInput {
 
 /// The pose of every shape in a frame in which linked patches lie as near to each other as can be.
 ///
-/// The shapes stand alike, and no poses are found, where for at least two of three the links agree as well
-/// (to .9) as the shapes stand in their files as in the best of 23 turns by right angles and 40 hashed ones.
-/// Nor are there poses where there are less than two shapes or no links, and where turning does not make the
-/// links agree clearly better (by a sixth).
+/// A shape stands like the others where its links agree as well (to .9) as it stands in its file as in the
+/// best of 23 turns by right angles and 40 hashed ones. Where half of the shapes do, all stay but the
+/// outliers: those whose links agree at least twice as well when they are turned, and then at least half as
+/// well as those of the median shape. In three rounds each outlier is fitted against the others from 24
+/// hashed starts. There are no poses where there is no outlier, where there are less than two shapes or no
+/// links, and where turning all does not make the links agree clearly better (by a sixth).
 ///
 /// Otherwise there are three beginnings: the eigenvectors of the moments of pairs (spectral_rotations.hpp),
 /// and twice pairs of shapes that are fitted from 24 hashed starts (rotation_fit.hpp) and chained along a

@@ -8,6 +8,7 @@
 
 #include "solvers/partition/cluster_merging.hpp"
 #include "solvers/partition/labelled_parts.hpp"
+#include "solvers/partition/part_exchange.hpp"
 #include "solvers/partition/part_shares.hpp"
 #include "solvers/partition/patch_moves.hpp"
 #include "src/base/index.hpp"
@@ -59,10 +60,11 @@ PartitionCandidate merged(const SearchTask& task, const PartitionCandidate& clus
     return std::move(*best);
 }
 
-/// The outcome after moves of single patches, or the same one where these raise the objective but, as it
-/// leaves out a term, not the score.
+/// The outcome after exchanges of parts and moves of single patches, or the same one where these raise the
+/// objective but, as it leaves out a term, not the score.
 PartitionCandidate improved(const SearchTask& task, PartitionCandidate outcome) {
-    MovedPatches moved = move_patches(task.objective, outcome.labels, task.parts);
+    MovedPatches moved =
+        move_patches(task.objective, exchange_parts(task.objective, outcome.labels, task.parts), task.parts);
     PartitionCandidate after = outcome;
     after.labels = std::move(moved.labels);
     after.outcome.moved = moved.moved;

@@ -25,6 +25,7 @@ struct ShapePose {
     double residual = 0.0;
     bool reflected = false;
     bool found = false;  ///< whether links to others say how it stands
+    [[nodiscard]] bool is_turned() const { return rotation != Eigen::Matrix3d::Identity(); }
     static constexpr auto fields() {
         return std::tuple(field("rotation", &ShapePose::rotation), field("scale", &ShapePose::scale),
                           field("translation", &ShapePose::translation),

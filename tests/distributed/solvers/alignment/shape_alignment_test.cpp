@@ -108,6 +108,23 @@ TEST(ShapeAlignment, LeavesShapesThatStandAlike) {
     EXPECT_EQ(turned_positions(found, made.positions, made.mesh_of), made.positions);
 }
 
+TEST(ShapeAlignment, TurnsTheOneShapeThatStandsOtherwise) {
+    TurnedCollection made(false);
+    const Eigen::Matrix3d turn = hashed_rotations(1, 9).front();
+    made.positions.middleCols(3 * patches, patches) = turn * made.positions.middleCols(3 * patches, patches);
+    const Comm comm(MPI_COMM_WORLD);
+    const ShapeAlignment found = made.aligned(comm, made.links(comm));
+    ASSERT_TRUE(found.applied()) << found.reason;
+    EXPECT_EQ(found.reason.substr(0, 42), "1 of 9 turned to stand like the others: li");
+    for (std::size_t m = 0; m < meshes; ++m) {
+        if (m == 3) continue;
+        EXPECT_FALSE(found.shapes[m].is_turned()) << m;
+        EXPECT_TRUE(found.shapes[m].found);
+    }
+    EXPECT_LT(angle_between(found.shapes[3].rotation, turn.transpose()), 2.0);
+    EXPECT_GT(found.agreement_after, found.agreement_before);
+}
+
 TEST(ShapeAlignment, LeavesShapesWithoutLinks) {
     const TurnedCollection made(true);
     const Comm comm(MPI_COMM_WORLD);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "solvers/partition/cluster_merging.hpp"
+#include "solvers/partition/part_exchange.hpp"
 #include "solvers/partition/patch_moves.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
@@ -215,6 +216,40 @@ TEST(PartitionSearch, DescriptorsOfNoSpreadAndMeshesWithoutOverlapsAddNothing) {
     const std::vector<int> second = {0, 0, 0, 1, 1};
     EXPECT_NEAR(value_of(sums, first, 2) - value_of(sums, second, 2),
                 c.score(composed(clusters, first), 2) - c.score(composed(clusters, second), 2), 1e-9);
+}
+
+/// The labels with the parts of one mesh named otherwise.
+std::vector<int> renamed_in(const RandomCollection& c, std::vector<int> labels, int mesh,
+                            const std::vector<int>& part_of) {
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (c.mesh_of[i] == mesh) labels[i] = part_of[at(labels[i])];
+    }
+    return labels;
+}
+
+TEST(PartitionSearch, AfterExchangesNoOtherNamesOfAMeshsPartsHaveABetterScore) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        const RandomCollection c(seed);
+        const std::vector<int> before = random_labels(3, seed);
+        const std::vector<int> after =
+            exchange_parts(partition_objective(c.evidence(), c.weights), before, 3);
+        EXPECT_GT(c.score(after, 3), c.score(before, 3));
+        for (int mesh = 0; mesh < RandomCollection::meshes; ++mesh) {
+            std::vector<int> part_of = {0, 1, 2};
+            do {
+                EXPECT_LE(c.score(renamed_in(c, after, mesh, part_of), 3), c.score(after, 3) + 1e-5);
+            } while (std::next_permutation(part_of.begin(), part_of.end()));
+        }
+    }
+}
+
+TEST(PartitionSearch, AnExchangeMendsTheMeshWhosePartsAreSwapped) {
+    RandomCollection c(1);
+    const std::vector<int> right = random_labels(3, 8);
+    for (int i = 0; i < RandomCollection::patches; ++i)
+        c.descriptors[0].histograms.col(i) = 4.0F * Eigen::Vector3f::Unit(right[at(i)]);
+    const std::vector<int> wrong = renamed_in(c, right, 2, {1, 2, 0});
+    EXPECT_EQ(exchange_parts(partition_objective(c.evidence(), c.weights), wrong, 3), right);
 }
 
 }  // namespace
