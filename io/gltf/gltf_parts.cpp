@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/files/byte_cursor.hpp"
+#include "io/gltf/gltf_compaction.hpp"
 #include "io/gltf/gltf_scene.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -164,6 +165,8 @@ class GltfPartition {
           asset_(read_gltf_asset(container_, source)),
           scene_(gltf_scene(asset_)),
           objects_(objects),
+          leaves_faces_out_(std::any_of(objects.object_of_face.begin(), objects.object_of_face.end(),
+                                        [](int object) { return object < 0; })),
           document_(OrderedJson::parse(container_.json)) {}
 
     std::string run(const std::string& path) {
@@ -175,7 +178,8 @@ class GltfPartition {
         keep_other_meshes();
         share_triangles();
         add_nodes();
-        return document_.finish(path);
+        const std::string glb = document_.finish(path);
+        return leaves_faces_out_ ? compact_glb(glb, path) : glb;
     }
 
   private:
@@ -238,7 +242,7 @@ class GltfPartition {
             OrderedJson& node = document_.json()["nodes"][k];
             OrderedJson kept = old_meshes_[at(mesh)];
             if (drawn.contains(static_cast<int>(k))) kept["primitives"] = other_primitives(mesh);
-            if (!kept["primitives"].empty()) {
+            if (!kept["primitives"].empty() && !leaves_faces_out_) {
                 node["mesh"] = document_.append("meshes", std::move(kept));
                 continue;
             }
@@ -303,8 +307,8 @@ class GltfPartition {
         return found->second;
     }
 
-    [[nodiscard]] PlacedMesh placed_mesh(const GltfObject& object, const Place& place,
-                                         std::vector<OrderedJson>& primitives) {
+    PlacedMesh placed_mesh(const GltfObject& object, const Place& place,
+                           std::vector<OrderedJson>& primitives) {
         const auto& [skin, morphed, matrix] = place;
         OrderedJson mesh{{"name", object.name}, {"primitives", std::move(primitives)}};
         for (const char* of_targets : {"weights", "extras"}) {
@@ -313,6 +317,7 @@ class GltfPartition {
         }
         OrderedJson node = OrderedJson::object();
         if (skin >= 0) node["skin"] = skin;
+        has_skin_ = has_skin_ || skin >= 0;
         if (Eigen::Map<const Eigen::Matrix4d>(matrix.data()) != Eigen::Matrix4d::Identity())
             node["matrix"] = matrix;
         return {document_.append("meshes", std::move(mesh)), std::move(node)};
@@ -329,6 +334,7 @@ class GltfPartition {
         if (asset_.scene < 0) json["scenes"] = OrderedJson::array({{{"nodes", asset_.roots}}});
         json["scene"] = std::max(asset_.scene, 0);
         OrderedJson& roots = json["scenes"][at(std::max(asset_.scene, 0))]["nodes"];
+        if (leaves_faces_out_ && !has_skin_) roots = OrderedJson::array();
         for (const int node : top) roots.push_back(node);
     }
 
@@ -336,6 +342,8 @@ class GltfPartition {
     GltfAsset asset_;
     GltfScene scene_;
     const GltfObjects& objects_;
+    bool leaves_faces_out_;
+    bool has_skin_ = false;
     GltfDocument document_;
     OrderedJson old_meshes_;
     int variant_ = 0;

@@ -45,6 +45,8 @@ std::string glb_of_surface(const GltfSurface& surface, const GltfObjects& object
 /// - The nodes of the file lose the triangles and nothing else. Their animations no longer move the parts,
 ///   but skins do.
 /// - The extension KHR_materials_variants has a variant "parts", in which each part has its colour.
+/// Where objects leave faces out, the file has nothing but what the others need (gltf_compaction.hpp), and
+/// of the nodes that were there only those that move a skin.
 /// `objects` has an entry for each face of read_gltf. Throws Error(input) as the reader, Error(internal) for
 /// another number of faces, Error(output) as glb_of.
 std::string glb_of_parts(std::string_view bytes, const std::string& source, const GltfObjects& objects,

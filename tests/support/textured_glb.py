@@ -4,6 +4,8 @@
 usage: textured_glb.py make IN.off OUT.glb          two nodes and two materials, seams, a picture, members that nobody knows
        textured_glb.py check SOURCE.glb EXPORT.glb LABELS.seg NAME ...
                                                     EXPORT has the triangles of SOURCE, shared out among nodes of these names
+       textured_glb.py alone SOURCE.glb PIECE.glb LABELS.seg PIECES.seg PART PIECE NAME
+                                                    PIECE.glb has the triangles of one piece of a part, and nothing else
 """
 import hashlib
 import json
@@ -168,10 +170,40 @@ def check(source_path, export_path, labels_path, names):
             assert export.json["materials"][mapping["material"]]["name"] == names[part]
 
 
+def alone(source_path, piece_path, labels_path, pieces_path, part, piece, name):
+    source, own = File(source_path), File(piece_path)
+    numbers = [[int(line) for line in open(path, encoding="utf-8")] for path in (labels_path, pieces_path)]
+    wanted = [key == (int(part), int(piece)) for key in zip(*numbers)]
+    faces = [triangle for mesh in range(2) for triangle in source.triangles(mesh)]
+    expected = [face for face, is_wanted in zip(faces, wanted) if is_wanted]
+    drawn = [node for node in own.json["nodes"] if "mesh" in node]
+    assert len(drawn) == 1 and drawn[0]["name"] == name and drawn[0]["matrix"][12] == 0.5, drawn
+    found = [(own.json["materials"][material]["name"], corners) for material, corners in own.triangles(drawn[0]["mesh"])]
+    assert found == [(source.json["materials"][material]["name"], corners) for material, corners in expected]
+    assert [node["name"] for node in own.json["nodes"] if node["name"] in ("body", "first", "second")] == []
+    used = {0: set(), 1: set()}
+    for material, corners in expected:
+        used[material].update(corners[k:k + 3] for k in (0, 3, 6))
+    for primitive in own.json["meshes"][drawn[0]["mesh"]]["primitives"]:
+        rows = list(zip(*(own.elements(primitive["attributes"][key]) for key in ("POSITION", "NORMAL", "TEXCOORD_0"))))
+        material = 0 if own.json["materials"][primitive["material"]]["name"] == "wood" else 1
+        assert set(rows) == used[material], "vertices that the piece does not use"
+        accessor = own.json["accessors"][primitive["attributes"]["POSITION"]]
+        places = [struct.unpack("<3f", row[0]) for row in rows]
+        assert accessor["min"] == [min(axis) for axis in zip(*places)] and accessor["max"] == [max(axis) for axis in zip(*places)]
+    assert ("images" in own.json) == ("textures" in own.json) == bool(used[0]), "pictures"
+    if used[0]:
+        assert own.view_bytes(own.json["images"][0]["bufferView"]) == source.view_bytes(source.json["images"][0]["bufferView"])
+    assert len(own.binary) < 100 + sum(len(own.view_bytes(k)) + 3 for k in range(len(own.json["bufferViews"])))
+    assert own.json["somethingNew"] == source.json["somethingNew"]
+
+
 if __name__ == "__main__":
     if sys.argv[1:2] == ["make"] and len(sys.argv) == 4:
         make(*sys.argv[2:])
     elif sys.argv[1:2] == ["check"] and len(sys.argv) > 5:
         check(*sys.argv[2:5], sys.argv[5:])
+    elif sys.argv[1:2] == ["alone"] and len(sys.argv) == 9:
+        alone(*sys.argv[2:])
     else:
         sys.exit(__doc__)

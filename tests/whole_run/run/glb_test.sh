@@ -55,6 +55,12 @@ cmp "$work/one/borders/parts.csv" "$work/result/borders/parts.csv" || fail "meas
 diff -r "$work/one/instances" "$work/split/instances" >"$work/out" || fail "instances depend on what is exported"
 name=pliers_0001
 [[ -f $work/split/glb/$name/part_0_left_arm_1.glb ]] || fail "no file of the first part: $(ls "$work/split/glb/$name")"
+for piece in "$work/split/glb/$name"/*.glb; do
+    [[ $(basename "$piece" .glb) =~ ^part_([0-9]+)_(.*)_([0-9]+)$ ]] || fail "the name $piece"
+    part=${BASH_REMATCH[1]} number=${BASH_REMATCH[3]} label=${BASH_REMATCH[2]//_/ }
+    python3 "$glb" alone "$work/meshes/$name.glb" "$piece" "$work/result/labels/$name.seg" "$work/split/instances/$name.seg" \
+        "$part" "$number" "$label $number" || fail "what is in $piece"
+done
 for format in obj glb stl; do
     "$COSEG" check "$work/split/$format/$name" --json "$work/split.json" >"$work/out" 2>&1 || true
     python3 - "$work" "$name" <<'END_PYTHON' || fail "the faces of the pieces as $format"
