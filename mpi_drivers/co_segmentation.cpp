@@ -11,6 +11,7 @@
 #include "mpi_drivers/partition/example_stage.hpp"
 #include "mpi_drivers/partition/run_checkpoints.hpp"
 #include "mpi_drivers/process/checked_petsc.hpp"
+#include "mpi_drivers/results/alignment_output.hpp"
 #include "mpi_drivers/results/feature_output.hpp"
 #include "mpi_drivers/results/profile.hpp"
 #include "mpi_drivers/results/run_folders.hpp"
@@ -139,9 +140,11 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     } else {
         report = run_report(comm, outcome, log);
     }
+    AlignmentFile in_file_units;
+    if (entries != nullptr) in_file_units = alignment_in_file_units(comm, collection, alignment);
     folders.commit(comm);
-    return {std::move(collection), std::move(optimisation), std::move(cut),
-            std::move(labels),     std::move(model),        std::move(report)};
+    return {std::move(collection), std::move(optimisation), std::move(cut),          std::move(labels),
+            std::move(model),      std::move(report),       std::move(in_file_units)};
 }
 
 }  // namespace coseg

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/data_files/alignment_file.hpp"
 #include "mpi_drivers/editing/corrected_cut.hpp"
 #include "mpi_drivers/options/run_options.hpp"
 #include "mpi_drivers/partition/example_stage.hpp"
@@ -23,7 +24,8 @@ struct CoSegmented {
     std::vector<MeshLabels> labels;
     ModelPatches
         model;  ///< of options.output.keep_model; on rank 0, or on all ranks where `entries` are given
-    std::string report;  ///< the text of report.json, on rank 0
+    std::string report;       ///< the text of report.json, on rank 0
+    AlignmentFile alignment;  ///< in the units of the meshes, on all ranks, where `entries` are given
 };
 
 /// A collection and its partition, before anything that a person says of it is followed.

@@ -109,6 +109,30 @@ struct HeldModel {
     std::shared_ptr<const coseg::Model> model;
 };
 
+py::object alignment_of(const coseg::Alignment& alignment) {
+    if (alignment.shapes.empty()) return py::none();
+    py::list shapes;
+    for (const coseg::ShapeTransform& shape : alignment.shapes) {
+        py::dict row;
+        row["rotation"] = shape.rotation;
+        row["scale"] = shape.scale;
+        row["translation"] = shape.translation;
+        row["agreement"] = shape.agreement;
+        row["residual"] = shape.residual;
+        row["reflected"] = shape.reflected;
+        row["found"] = shape.found;
+        shapes.append(row);
+    }
+    py::dict dict;
+    dict["aligned"] = alignment.aligned;
+    dict["reason"] = alignment.reason;
+    dict["standing_share"] = alignment.standing_share;
+    dict["agreement_before"] = alignment.agreement_before;
+    dict["agreement_after"] = alignment.agreement_after;
+    dict["shapes"] = shapes;
+    return dict;
+}
+
 py::dict dict_of(coseg::Segmentation&& result) {
     py::list shapes;
     for (coseg::ShapeLabels& shape : result.shapes) {
@@ -127,6 +151,7 @@ py::dict dict_of(coseg::Segmentation&& result) {
     dict["certificate"] = dict_of(result.certificate);
     dict["warnings"] = texts_of(result.warnings);
     dict["report"] = py::bytes(result.report);
+    dict["alignment"] = alignment_of(result.alignment);
     dict["model"] = py::none();
     if (result.model != nullptr) dict["model"] = HeldModel{result.model};
     return dict;

@@ -19,6 +19,7 @@
 //   process works alone, also where it is one of many.
 // - At most one call is at work in a process at a time; a second one throws.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -146,6 +147,29 @@ struct Certificate {
     std::int64_t nonzero_pairs = 0;  ///< pairs of patches with a coefficient
 };
 
+/// How one shape is brought to stand like the others: scale * rotation * x + translation takes a point x of
+/// its coordinates to the common frame, in which the centre of a shape lies near the origin and the root mean
+/// square of a coordinate is about 1.
+struct ShapeTransform {
+    std::array<double, 9> rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row by row, orthogonal
+    double scale = 1.0;
+    std::array<double, 3> translation{};
+    double agreement = 0.0;  ///< of the shape's links to others in the frame, 0 .. 1; docs/formats.md
+    double residual = 0.0;   ///< of the links that agree: their length in the frame
+    bool reflected = false;  ///< whether the rotation mirrors the shape
+    bool found = false;      ///< whether links say how the shape stands; else the rotation is a guess
+};
+
+/// What alignment.json holds (docs/formats.md).
+struct Alignment {
+    bool aligned = false;         ///< if not, all rotations are the identity: shapes stand as they were given
+    std::string reason;           ///< why they are aligned, or are not
+    double standing_share = 0.0;  ///< share of the shapes that stand like the others as they were given
+    double agreement_before = 0.0;
+    double agreement_after = 0.0;
+    std::vector<ShapeTransform> shapes;  ///< in the order of the shapes; set aside: nothing is done
+};
+
 /// What is needed to label more shapes like those of a run.
 class Model;
 
@@ -156,6 +180,7 @@ struct Segmentation {
     std::vector<std::string> warnings;   ///< of the whole call, one sentence each
     std::string report;                  ///< JSON, as in report.json (docs/formats.md)
     std::shared_ptr<const Model> model;  ///< of segment() alone, where SegmentOptions::keep_model is set
+    Alignment alignment;                 ///< of segment() alone; without shapes otherwise
 };
 
 struct SegmentOptions {

@@ -73,6 +73,33 @@ std::vector<ShapeLabels> in_order(const CollectionShapes& shapes, const Collecti
     return result;
 }
 
+ShapeTransform transform_of(const AlignedShape& shape) {
+    ShapeTransform transform;
+    for (std::size_t k = 0; k < 9; ++k)
+        transform.rotation[k] =
+            shape.rotation(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3));
+    transform.scale = shape.scale;
+    for (std::size_t k = 0; k < 3; ++k)
+        transform.translation[k] = shape.translation[static_cast<Eigen::Index>(k)];
+    transform.agreement = shape.agreement;
+    transform.residual = shape.residual;
+    transform.reflected = shape.reflected;
+    transform.found = shape.found;
+    return transform;
+}
+
+/// `result.shapes` say which shapes are set aside.
+void add_alignment(const CollectionShapes& shapes, const AlignmentFile& alignment, Segmentation& result) {
+    result.alignment = {alignment.aligned,          alignment.reason,          alignment.standing_share,
+                        alignment.agreement_before, alignment.agreement_after, {}};
+    result.alignment.shapes.resize(result.shapes.size());
+    auto usable = alignment.shapes.begin();
+    for (std::size_t k = 0; k < result.shapes.size(); ++k) {
+        const std::size_t index = shapes.index_of(k);
+        if (result.shapes[index].set_aside.empty()) result.alignment.shapes[index] = transform_of(*usable++);
+    }
+}
+
 void add_solution(Segmentation& result, const SolveResult& solution, double gap) {
     result.certificate = certificate_of(solution);
     try {
@@ -115,6 +142,7 @@ Segmentation segmented(LibraryCall& library, std::span<const Shape> given, const
     broadcast(comm, result.report);
     result.shapes = in_order(shapes, done.collection,
                              all_labels(comm, std::move(done.labels), done.collection.meshes.size()));
+    add_alignment(shapes, done.alignment, result);
     return result;
 }
 

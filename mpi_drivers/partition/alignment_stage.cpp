@@ -9,18 +9,27 @@
 
 namespace coseg {
 
-ShapeAlignment alignment_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                               const SparseCoefficients& coefficients, const PartitionOptions& options,
-                               StageLog& log) {
-    ShapeAlignment alignment;
-    alignment.reason = "it is switched off";
-    if (options.align == AlignMode::off || features.positions.cols() == 0) return alignment;
-    log.begin("align");
+ShapeAlignment aligned(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                       const SparseCoefficients& coefficients, const PartitionOptions& options) {
+    if (options.align == AlignMode::off || features.positions.cols() == 0) {
+        ShapeAlignment alignment;
+        alignment.reason = "it is switched off";
+        return alignment;
+    }
     std::vector<std::uint64_t> keys;
     for (const MeshFacts& mesh : collection.meshes) keys.push_back(hash_text(mesh.name));
     const std::vector<int> mesh_of = collection.numbering.mesh_of();
-    alignment = align_shapes(comm, {coefficients, features.positions, mesh_of, features.patch_area,
-                                    std::move(keys), options.seed});
+    return align_shapes(comm, {coefficients, features.positions, mesh_of, features.patch_area,
+                               std::move(keys), options.seed});
+}
+
+ShapeAlignment alignment_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                               const SparseCoefficients& coefficients, const PartitionOptions& options,
+                               StageLog& log) {
+    if (options.align == AlignMode::off || features.positions.cols() == 0)
+        return aligned(comm, collection, features, coefficients, options);
+    log.begin("align");
+    ShapeAlignment alignment = aligned(comm, collection, features, coefficients, options);
     log.end((alignment.applied() ? "aligned: " : "as they stand: ") + alignment.reason);
     return alignment;
 }

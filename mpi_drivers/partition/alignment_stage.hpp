@@ -11,8 +11,12 @@
 
 namespace coseg {
 
-/// The poses of the collection's shapes, see align_shapes. The log has the stage "align". With
-/// AlignMode::off, or where patches have no positions, nothing is done. Collective.
+/// The poses of the collection's shapes, see align_shapes. With AlignMode::off, or where patches have no
+/// positions, nothing is done. Collective.
+ShapeAlignment aligned(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                       const SparseCoefficients& coefficients, const PartitionOptions& options);
+
+/// The same, with the stage "align" in the log. Collective.
 ShapeAlignment alignment_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                StageLog& log);

@@ -71,9 +71,9 @@ Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
     log.end(with_unit(outcome.optimisation.subsets, "subset", "subsets") + ", " +
             with_unit(outcome.optimisation.common_meshes, "common shape", "common shapes") + ", " +
             significant(100.0 * outcome.optimisation.subset_agreement) + " % agreement on these");
-    ShapeAlignment none;
-    none.reason = "subsets are not aligned";
-    return {std::move(outcome.optimisation), std::move(outcome.cut), std::move(none)};
+    ShapeAlignment alignment = alignment_stage(comm, collection, features,
+                                               outcome.optimisation.result.coefficients, task.partition, log);
+    return {std::move(outcome.optimisation), std::move(outcome.cut), std::move(alignment)};
 }
 
 Partitioned first_pass(const Comm& comm, const Collection& collection, PatchFeatures features,

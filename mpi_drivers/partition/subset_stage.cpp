@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "mpi_drivers/partition/alignment_stage.hpp"
 #include "mpi_drivers/partition/sub_collection.hpp"
+#include "solvers/alignment/shape_alignment.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/metrics/assignment.hpp"
@@ -118,6 +120,10 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
     for (std::size_t s = 0; s < plan.subsets.size(); ++s) {
         PartCollection part = part_of_collection(comm, collection, features, plan.subsets[s]);
         Optimisation optimised = optimise(comm, part.collection, part.features, task.optimise, task.tiles);
+        const ShapeAlignment alignment =
+            aligned(comm, part.collection, part.features, optimised.result.coefficients, options);
+        part.features.positions =
+            turned_positions(alignment, part.features.positions, part.collection.numbering.mesh_of());
         const CutResult cut = cut_or_found(comm,
                                            partition_input(part.collection, std::move(part.features),
                                                            optimised.result.coefficients, options),

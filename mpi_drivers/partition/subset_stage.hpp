@@ -15,10 +15,11 @@ struct SubsetOutcome {
     CutResult cut;  ///< of all patches; without starts
 };
 
-/// Optimises and cuts subsets of task.partition.subsets meshes one after the other, on all ranks. Parts of a
-/// later subset take the numbers of the first by the one assignment that agrees on most area of the common
-/// meshes. Features are those of the whole collection. Source: the paper, section 5 (Figure 6). Collective.
-/// Throws what optimise and cut_into_parts do, and what the checkpoints do.
+/// Optimises and cuts subsets of task.partition.subsets meshes one after the other, on all ranks. Each subset
+/// is aligned for its own cut. Parts of a later subset take the numbers of the first by the one assignment
+/// that agrees on most area of the common meshes. Features are those of the whole collection. Source: the
+/// paper, section 5 (Figure 6). Collective. Throws what optimise and cut_into_parts do, and what the
+/// checkpoints do.
 SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                                 const PartitionTask& task);
 

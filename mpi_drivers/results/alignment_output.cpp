@@ -5,7 +5,6 @@
 #include <tuple>
 #include <vector>
 
-#include "io/data_files/alignment_file.hpp"
 #include "io/files/atomic_file.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -103,24 +102,29 @@ AlignedShape shape_in_file_units(const std::string& name, const ShapePose& pose,
 
 }  // namespace
 
-void write_alignment_file(const Comm& comm, const std::string& folder, const Collection& collection,
-                          const ShapeAlignment& alignment) {
+AlignmentFile alignment_in_file_units(const Comm& comm, const Collection& collection,
+                                      const ShapeAlignment& alignment) {
     std::vector<FilePlace> local;
     agree(comm, [&] {
         for (const MeshDescription& mesh : collection.local) local.push_back(place_in_file(mesh));
     });
-    std::vector<FilePlace> places = gather_records(comm, local);
+    std::vector<FilePlace> places = all_gather_records(comm, local);
     std::sort(places.begin(), places.end(),
               [](const FilePlace& a, const FilePlace& b) { return a.mesh < b.mesh; });
+    AlignmentFile file{alignment.applied(),        alignment.reason,          alignment.standing_share,
+                       alignment.agreement_before, alignment.agreement_after, {}};
+    for (const FilePlace& place : places) {
+        const ShapePose pose = alignment.applied() ? alignment.shapes[at(place.mesh)] : ShapePose{};
+        file.shapes.push_back(shape_in_file_units(collection.meshes[at(place.mesh)].name, pose, place));
+    }
+    return file;
+}
+
+void write_alignment_file(const Comm& comm, const std::string& folder, const Collection& collection,
+                          const ShapeAlignment& alignment) {
+    const AlignmentFile file = alignment_in_file_units(comm, collection, alignment);
     agree(comm, [&] {
-        if (!comm.is_root()) return;
-        AlignmentFile file{alignment.applied(),        alignment.reason,          alignment.standing_share,
-                           alignment.agreement_before, alignment.agreement_after, {}};
-        for (const FilePlace& place : places) {
-            const ShapePose pose = alignment.applied() ? alignment.shapes[at(place.mesh)] : ShapePose{};
-            file.shapes.push_back(shape_in_file_units(collection.meshes[at(place.mesh)].name, pose, place));
-        }
-        write_file(folder + "/alignment.json", alignment_text(file));
+        if (comm.is_root()) write_file(folder + "/alignment.json", alignment_text(file));
     });
 }
 

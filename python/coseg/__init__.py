@@ -17,6 +17,7 @@ from typing import List, Tuple, Union
 import numpy as np
 
 from . import _core
+from ._alignment import Alignment
 from ._clusters import Clusters, SubspaceClustering, cluster
 from ._errors import Error, InputError, UsageError, translated as _translated
 from ._measures import Description, Score, describe, score
@@ -26,8 +27,8 @@ from ._shapes import MeshesLike, MeshLike, path_bytes
 
 __version__ = _core.version()
 
-__all__ = ["Clusters", "Description", "Error", "InputError", "Mesh", "MeshLike", "MeshesLike", "Progress", "Result",
-           "Score", "SubspaceClustering", "UsageError", "assign", "cluster", "describe", "draw", "generate",
+__all__ = ["Alignment", "Clusters", "Description", "Error", "InputError", "Mesh", "MeshLike", "MeshesLike", "Progress",
+           "Result", "Score", "SubspaceClustering", "UsageError", "assign", "cluster", "describe", "draw", "generate",
            "load_mesh", "mesh_files", "option_names", "score", "segment"]
 
 

@@ -10,6 +10,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Union
 import numpy as np
 
 from . import _core
+from ._alignment import Alignment, alignment_of
 from ._errors import InputError, UsageError, translated
 from ._shapes import MeshesLike, given_communicator, given_options, given_path, given_shapes
 
@@ -34,6 +35,8 @@ class Result:
         warnings: sentences about the run and about shapes.
         set_aside: index of a shape -> why it could not be used (only with strict=False).
         folder: where the results lie as files, or None.
+        alignment: how each shape is turned, scaled and moved to stand like the others; None from assign() and
+            from folders of runs that have no alignment.json.
     """
 
     parts: int
@@ -46,6 +49,7 @@ class Result:
     warnings: List[str] = dataclasses.field(default_factory=list)
     set_aside: Dict[int, str] = dataclasses.field(default_factory=dict)
     folder: Optional[str] = None
+    alignment: Optional[Alignment] = None
     _model: Any = dataclasses.field(default=None, repr=False, compare=False)
 
     def __repr__(self) -> str:
@@ -85,7 +89,8 @@ class Result:
                          "nonzero_pairs": solution["nonzero_groups"]},
             report=report,
             warnings=[warning for mesh in meshes for warning in mesh["warnings"]],
-            folder=folder)
+            folder=folder,
+            alignment=_read_alignment(folder, names))
 
 
 def _name_of(mesh: Dict[str, Any]) -> str:
@@ -105,6 +110,20 @@ def _read_labels(folder: str, kind: str, name: str, faces: int) -> np.ndarray:
     return labels
 
 
+def _read_alignment(folder: str, names: List[str]) -> Optional[Alignment]:
+    path = os.path.join(folder, "alignment.json")
+    if not os.path.exists(path):
+        return None
+    try:
+        with open(path, encoding="utf-8") as file:
+            raw = json.load(file)
+        if [_name_of(shape) for shape in raw["shapes"]] != names:
+            raise ValueError("it has other shapes than report.json")
+        return alignment_of(raw, [False] * len(names))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(f"{path}: cannot be read as an alignment ({error})") from None
+
+
 def _result(raw: Dict[str, Any], folder: Optional[str]) -> Result:
     shapes = raw["shapes"]
     parts = raw["parts"]
@@ -120,7 +139,8 @@ def _result(raw: Dict[str, Any], folder: Optional[str]) -> Result:
                   patches=used("patches"), part_areas=areas, certificate=raw["certificate"],
                   report=json.loads(raw["report"]), warnings=list(raw["warnings"]),
                   set_aside={k: shape["set_aside"] for k, shape in enumerate(shapes) if shape["set_aside"]},
-                  folder=folder, _model=raw["model"])
+                  folder=folder, _model=raw["model"],
+                  alignment=alignment_of(raw["alignment"], [bool(shape["set_aside"]) for shape in shapes]))
 
 
 def _whole_number(what: str, value: Any) -> int:

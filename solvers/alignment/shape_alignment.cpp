@@ -21,6 +21,7 @@ namespace {
 
 constexpr double enough_standing = 0.5;  ///< share of the shapes
 constexpr double clearly_better = 7.0 / 6.0;
+constexpr double enough_agreement = 0.5;  ///< of the median over the shapes
 constexpr int turning_rounds = 4;
 constexpr int settling_rounds = 2;
 constexpr int outlier_rounds = 3;
@@ -85,6 +86,16 @@ ShapeAlignment outliers_turned(PoseRounds& rounds, ShapeAlignment alignment) {
     return alignment;
 }
 
+/// Whose links agree much less than those of others stands by chance: a chair without a back is put on its
+/// head if its one foot is linked with backs.
+void doubt_where_links_agree_little(std::vector<ShapePose>& poses) {
+    std::vector<double> agreements;
+    for (const ShapePose& pose : poses) agreements.push_back(pose.agreement);
+    const auto middle = agreements.begin() + std::ssize(agreements) / 2;
+    std::nth_element(agreements.begin(), middle, agreements.end());
+    for (ShapePose& pose : poses) pose.found = pose.found && pose.agreement >= enough_agreement * *middle;
+}
+
 }  // namespace
 
 ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input) {
@@ -112,6 +123,7 @@ ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input) {
     rounds.set(poses);
     for (int round = 0; round < similarity_rounds; ++round) rounds.fit_scale_and_translation();
     alignment.shapes = rounds.poses();
+    doubt_where_links_agree_little(alignment.shapes);
     alignment.reason = agreement_text(alignment);
     return alignment;
 }
@@ -120,8 +132,11 @@ Eigen::Matrix3Xd turned_positions(const ShapeAlignment& alignment, const Eigen::
                                   const std::vector<int>& mesh_of) {
     if (!alignment.applied()) return positions;
     Eigen::Matrix3Xd turned = positions;
-    for (Eigen::Index p = 0; p < turned.cols(); ++p)
-        turned.col(p) = alignment.shapes[at(mesh_of[at(p)])].rotation * positions.col(p);
+    for (Eigen::Index p = 0; p < turned.cols(); ++p) {
+        const ShapePose& pose = alignment.shapes[at(mesh_of[at(p)])];
+        turned.col(p) =
+            pose.found ? Eigen::Vector3d(pose.rotation * positions.col(p)) : Eigen::Vector3d::Zero();
+    }
     return turned;
 }
 

@@ -34,7 +34,8 @@ struct AlignmentInput {
 /// spanning tree (rotation_chain.hpp). The one that leads farthest in two rounds goes on: each shape is
 /// fitted again, several times and from other starts too, against all that it has links to. A shape is
 /// reflected if its links then agree better by a sixth. Scale and translation are found last.
-/// common_frame.hpp chooses the axes.
+/// common_frame.hpp chooses the axes. A shape of which the links agree less than half as well as those of the
+/// median shape is not found: its pose is a guess.
 ///
 /// A shape is worked on by one rank, which holds its links to ten others; beside these a rank holds the poses
 /// of all shapes, and at the beginnings sums over the links of ten pairs a shape. The result has the same
@@ -46,7 +47,8 @@ struct AlignmentInput {
 ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input);
 
 /// The positions of all patches, each turned as the pose of its shape says; without scale and translation, so
-/// that they keep the centre and the unit of patch_positions.
+/// that they keep the centre and the unit of patch_positions. Patches of a shape that is not found are all at
+/// the centre, where a position says least: a wrong one would draw them to the wrong parts.
 Eigen::Matrix3Xd turned_positions(const ShapeAlignment& alignment, const Eigen::Matrix3Xd& positions,
                                   const std::vector<int>& mesh_of);
 

@@ -24,7 +24,7 @@ struct ShapePose {
     /// one leg to another, do not count.
     double residual = 0.0;
     bool reflected = false;
-    bool found = false;  ///< whether links to others say how it stands
+    bool found = false;  ///< whether links to others say how it stands; else the rotation is a guess
     [[nodiscard]] bool is_turned() const { return rotation != Eigen::Matrix3d::Identity(); }
     static constexpr auto fields() {
         return std::tuple(field("rotation", &ShapePose::rotation), field("scale", &ShapePose::scale),

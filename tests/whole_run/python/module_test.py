@@ -227,6 +227,36 @@ def test_bad_shapes_are_exceptions_that_name_shape_and_face(mesh, words):
             coseg.describe([(CUBE, QUADS), mesh], **{k: TINY[k] for k in ("patches", "geodesic_samples")})
 
 
+def test_alignment(run, tables):
+    from_file = coseg.Result.load(run[0]).alignment
+    called = coseg.segment(tables[::-1], 2, names=[mesh.name for mesh in tables[::-1]], **QUICK).alignment
+    kept = json.loads((run[0] / "alignment.json").read_text())
+    assert not kept["aligned"] and not called.aligned and called.reason == from_file.reason == kept["reason"]
+    for key in ("rotations", "scales", "translations", "agreement", "residuals", "reflected", "found"):
+        assert np.array_equal(getattr(called, key)[::-1], getattr(from_file, key)), key
+    assert np.array_equal(from_file.translations, [shape["translation"] for shape in kept["shapes"]])
+    placed = called.apply(3, tables[0].vertices)
+    assert np.allclose(placed, tables[0].vertices @ called.matrices[3, :3, :3].T + called.matrices[3, :3, 3])
+    assert np.abs(placed.mean(axis=0)).max() < 0.6 and 0.7 < placed.std() < 1.4
+    assert coseg.assign(tables[:2], str(run[0])).alignment is None
+
+
+def test_turned_shapes_are_turned_back():
+    shapes = coseg.generate("quadruped", 6, seed=3, faces=1500)
+    turns = [np.linalg.qr(np.random.default_rng(k).normal(size=(3, 3)))[0] for k in range(6)]
+    turns = [turn * np.linalg.det(turn) for turn in turns]
+    turned = [(3.0 * shape.vertices @ turn.T + k, shape.faces) for k, (shape, turn) in enumerate(zip(shapes, turns))]
+    bad = (CUBE, QUADS[:5] + [[1, 5, 7, 8]])
+    alignment = coseg.segment([bad] + turned, 4, patches=30, geodesic_samples=80, strict=False).alignment
+    assert alignment.aligned and np.isnan(alignment.rotations[0]).all() and not alignment.found[0]
+    assert np.allclose(np.linalg.det(alignment.rotations[1:]), 1) and not alignment.reflected.any()
+    together = alignment.rotations[1:] @ np.array(turns)
+    angles = [[np.degrees(np.arccos(np.clip((np.trace(a.T @ b) - 1) / 2, -1, 1))) for a in together] for b in together]
+    assert min(np.sort(row)[4] for row in angles) < 15, np.round(angles)
+    sizes = [alignment.apply(k, turned[k - 1][0]).std(axis=0) for k in range(1, 7)]
+    assert 0.6 < np.min(np.linalg.norm(sizes, axis=1)) and np.max(np.linalg.norm(sizes, axis=1)) < 2.5
+
+
 def test_bad_shapes_can_be_set_aside():
     bad = (CUBE, QUADS[:5] + [[1, 5, 7, 8]])
     result = coseg.segment([bad, (CUBE, QUADS), (CUBE * 2, QUADS)], 2, strict=False, **TINY)

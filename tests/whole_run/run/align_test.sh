@@ -50,6 +50,21 @@ for s in aligned["shapes"]:
     size = math.sqrt(sum(math.dist(p, mean) ** 2 for p in placed) / len(placed) / 3)
     assert math.hypot(*mean) < 0.5 and 0.7 < size < 1.4, (s["name"], mean, size)
 END
+# Subsets are aligned each for its own cut, and then all together.
+ranks 2 "$COSEG" run "${common[@]}" --quiet --no-sheet --subsets 5 --out "$work/subsets" "$work/turned"
+python3 - "$COSEG_SOURCE/bench" "$work" <<'END' || fail "the alignment of subsets"
+import json, sys
+sys.path.insert(0, sys.argv[1])
+from accuracy import random_rotation
+from alignment import angle, product
+subsets = json.load(open(sys.argv[2] + "/subsets/alignment.json"))
+assert subsets["aligned"], subsets["reason"]
+together = [product(s["rotation"], random_rotation(s["name"] + ".off")) for s in subsets["shapes"]]
+best = min(sorted(angle(a, b) for b in together)[4] for a in together)
+assert best < 15, f"five of seven shapes differ by up to {best} degrees"
+END
+accuracy_of() { "$COSEG" score --json --truth "$work/set/truth" --labels "$work/$1/labels" "$work/turned" | python3 -c 'import json, sys; print(round(json.load(sys.stdin)["one_to_one"]))'; }
+(($(accuracy_of subsets) > $(accuracy_of one) - 5)) || fail "labels of subsets: $(accuracy_of subsets) %, of the whole $(accuracy_of one) %"
 "$COSEG" render --out "$work/again" "$work/one" >/dev/null
 cmp "$work/again/contact_sheet.png" "$work/one/contact_sheet.png" || fail "coseg render does not turn the shapes as the run did"
 if cmp -s "$work/off/contact_sheet.png" "$work/one/contact_sheet.png"; then fail "the sheet is not aligned"; fi

@@ -38,8 +38,9 @@ struct TurnedCollection {
         }
     }
 
-    /// Each patch has one link to every other mesh; four of ten lead to another patch than its own.
-    [[nodiscard]] SparseCoefficients links(const Comm& comm) const {
+    /// Each patch has one link to every other mesh; four of ten lead to another patch than its own, and all
+    /// of the mesh `unlike`.
+    [[nodiscard]] SparseCoefficients links(const Comm& comm, int unlike = -1) const {
         SparseCoefficients w;
         w.size = meshes * patches;
         w.features = 1;
@@ -51,7 +52,8 @@ struct TurnedCollection {
                 const std::uint64_t hash =
                     hash_words({static_cast<std::uint64_t>(j), static_cast<std::uint64_t>(m)});
                 const auto own = static_cast<int>(j) % patches;
-                w.rows.push_back(m * patches + (hash % 10 < 4 ? static_cast<int>(hash / 10 % patches) : own));
+                const bool is_wrong = hash % 10 < 4 || m == unlike || static_cast<int>(j) / patches == unlike;
+                w.rows.push_back(m * patches + (is_wrong ? static_cast<int>(hash / 10 % patches) : own));
                 w.values.push_back(1.0);
             }
             w.offsets.push_back(static_cast<std::int64_t>(w.rows.size()));
@@ -95,6 +97,23 @@ TEST(ShapeAlignment, HasTheSameBitsAsOnOneRank) {
         EXPECT_EQ(found.shapes[m].scale, serial.shapes[m].scale);
         EXPECT_EQ(found.shapes[m].translation, serial.shapes[m].translation);
         EXPECT_EQ(found.shapes[m].residual, serial.shapes[m].residual);
+    }
+}
+
+TEST(ShapeAlignment, GivesNoPlacesToAShapeOfWhichTheLinksAgreeWithNothing) {
+    const TurnedCollection made(true);
+    const Comm comm(MPI_COMM_WORLD);
+    constexpr std::size_t unlike = 7;
+    const ShapeAlignment found = made.aligned(comm, made.links(comm, unlike));
+    ASSERT_TRUE(found.applied()) << found.reason;
+    const Eigen::Matrix3Xd turned = turned_positions(found, made.positions, made.mesh_of);
+    for (std::size_t m = 0; m < meshes; ++m) {
+        EXPECT_EQ(found.shapes[m].found, m != unlike) << m;
+        const auto columns = static_cast<Eigen::Index>(m) * patches;
+        const Eigen::Matrix3Xd expected = (m == unlike ? 0.0 : 1.0) * found.shapes[m].rotation *
+                                          made.positions.middleCols(columns, patches);
+        EXPECT_EQ(turned.middleCols(columns, patches).isZero(), m == unlike) << m;
+        EXPECT_TRUE(turned.middleCols(columns, patches).isApprox(expected) || m == unlike) << m;
     }
 }
 
