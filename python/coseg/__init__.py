@@ -79,9 +79,15 @@ def generate(family: str, count: int = 12, *, seed: int = 1, faces: int = 5000) 
 
     family: airplane, ant, chair, cup, goblet, human, lamp, octopus, pliers, quadruped, table ...
     """
+    for what, value, least, end in (("count", count, -2**31, 2**31), ("seed", seed, 0, 2**64),
+                                    ("faces", faces, -2**31, 2**31)):
+        if isinstance(value, bool) or not hasattr(value, "__index__"):
+            raise UsageError(f"{what}: {value!r} is no whole number")
+        if not least <= value.__index__() < end:
+            raise UsageError(f"{what}: {value!r} is not in {least} .. {end - 1}")
     with _translated():
         return [_mesh(*mesh, labels=labels, name=name)
-                for name, mesh, labels in _core.generate(family, count, seed, faces)]
+                for name, mesh, labels in _core.generate(str(family), count, seed, faces)]
 
 
 def option_names() -> List[str]:

@@ -6,8 +6,9 @@ from typing import Any, Iterable, Union
 
 import numpy as np
 
+from ._errors import InputError
 from ._segmentation import Result
-from ._shapes import MeshesLike, given_shapes
+from ._shapes import MeshesLike, given_labels, given_shapes
 
 
 def _triangles(vertices: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> tuple:
@@ -36,8 +37,10 @@ def draw(meshes: MeshesLike, labels: Union[Result, Iterable[Any]], *, columns: i
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     from . import load_mesh
-    rows = list(labels.labels if isinstance(labels, Result) else labels)
+    rows = given_labels("labels", labels.labels if isinstance(labels, Result) else labels)
     shapes = given_shapes(meshes)
+    if len(rows) != len(shapes):
+        raise InputError(f"there are {len(shapes)} shapes and {len(rows)} arrays of labels; give as many of each")
     lines = -(-len(shapes) // columns)
     figure = Figure(figsize=(size * min(columns, len(shapes)), size * lines), dpi=100, layout="constrained")
     light = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
@@ -47,11 +50,14 @@ def draw(meshes: MeshesLike, labels: Union[Result, Iterable[Any]], *, columns: i
     for k, ((_, path, vertices, corners, offsets), part) in enumerate(zip(shapes, rows), 1):
         if path:
             vertices, corners, offsets = load_mesh(path).arrays()
+        faces = len(offsets) - 1 if len(offsets) else len(corners) // 3
+        if len(part) not in (0, faces):
+            raise InputError(f"shape {k - 1}: {len(part)} labels for {faces} faces")
         points, face = _triangles(np.asarray(vertices).reshape(-1, 3)[:, order], corners, offsets)
         normal = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
-        color = (np.full((len(points), 3), 0.7) if part is None
-                 else palette[np.asarray(part)[face] % 20])
+        color = (np.full((len(points), 3), 0.7) if not len(part)
+                 else palette[part[face] % 20])
         color = color * (0.6 + 0.4 * np.abs(normal @ light))[:, None]
         axes = figure.add_subplot(lines, min(columns, len(shapes)), k, projection="3d")
         axes.add_collection3d(Poly3DCollection(points, facecolors=color, edgecolors="none"))

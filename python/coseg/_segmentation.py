@@ -63,7 +63,7 @@ class Result:
         Shapes are in the order of the report, which is that of their names. Raises InputError for a folder
         that holds no run.
         """
-        folder = os.fspath(folder)
+        folder = os.fsdecode(given_path(folder))
         path = os.path.join(folder, "report.json")
         try:
             with open(path, encoding="utf-8") as file:
@@ -144,10 +144,22 @@ def _result(raw: Dict[str, Any], folder: Optional[str]) -> Result:
 
 
 def _whole_number(what: str, value: Any) -> int:
-    try:
-        return value.__index__()
-    except AttributeError:
-        raise UsageError(f"{what}: {value!r} is no whole number") from None
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
+        raise UsageError(f"{what}: {value!r} is no whole number")
+    return value.__index__()
+
+
+def _number_of_parts(value: Any) -> int:
+    parts = _whole_number("parts", value)
+    if not 1 <= parts <= 1000:
+        raise UsageError(f"parts: {parts} is not in 1 .. 1000")
+    return parts
+
+
+def _given_progress(progress: Any) -> Any:
+    if progress is not None and not callable(progress):
+        raise UsageError(f"progress: {progress!r} is no function")
+    return progress
 
 
 def _arguments(strict: bool, out: Any, replace: bool, state: Any) -> Any:
@@ -191,12 +203,12 @@ def segment(meshes: MeshesLike, parts: int, *, names: Optional[Sequence[str]] = 
         anything else. KeyboardInterrupt on Ctrl-C, when the next mesh or tile of columns is done.
     """
     arguments = _arguments(strict, out, replace, state)
-    arguments.parts = _whole_number("parts", parts)
+    arguments.parts = _number_of_parts(parts)
     arguments.options = given_options(options)
     arguments.keep_model = bool(keep_model)
     shapes = given_shapes(meshes, names)
     with translated():
-        raw = _core.segment(shapes, arguments, given_communicator(comm), progress)
+        raw = _core.segment(shapes, arguments, given_communicator(comm), _given_progress(progress))
     return _result(raw, None if out is None else os.fsdecode(out))
 
 
@@ -224,5 +236,6 @@ def assign(meshes: MeshesLike, to: Union[Result, str, "os.PathLike[str]"], *,
     with translated():
         if model is None:
             model = _core.load_model(to.folder if isinstance(to, Result) else given_path(to), communicator)
-        raw = _core.assign(shapes, model, _arguments(strict, out, replace, state), communicator, progress)
+        raw = _core.assign(shapes, model, _arguments(strict, out, replace, state), communicator,
+                           _given_progress(progress))
     return _result(raw, None if out is None else os.fsdecode(out))

@@ -29,10 +29,22 @@ def _is_path(value: Any) -> bool:
 
 def path_bytes(path: Any) -> bytes:
     """A path as the extension takes it: names of files need not be UTF-8."""
-    return os.fsencode(path)
+    try:
+        return os.fsencode(path)
+    except TypeError:
+        raise UsageError(f"{path!r} is no path") from None
+
+
+def given_list(what: str, given: Any) -> list:
+    """A list of what belongs to the shapes; text is none, though Python would take it for one of letters."""
+    if isinstance(given, (str, bytes, dict)) or not hasattr(given, "__iter__"):
+        raise UsageError(f"{what}: give a list with one for each shape, not {type(given).__name__}")
+    return list(given)
 
 
 def _vertices(shape: str, given: Any) -> np.ndarray:
+    if np.ma.is_masked(given):
+        raise InputError(f"{shape}: vertices are masked; leave them out, and their faces")
     try:
         vertices = np.asarray(given)
     except ValueError as error:
@@ -112,9 +124,12 @@ def given_shapes(meshes: MeshesLike, names: Optional[Sequence[str]] = None) -> l
             meshes = _core.mesh_files([path_bytes(meshes)])
     elif isinstance(meshes, np.ndarray) or hasattr(meshes, "vertices"):
         raise InputError("the meshes must be a list, as [(vertices, faces), ...], or a folder")
-    meshes = list(meshes)
+    meshes = given_list("the meshes", meshes)
     if names is not None:
-        names = [str(name) for name in names]
+        names = given_list("names", names)
+        for index, name in enumerate(names):
+            if not isinstance(name, str):
+                raise UsageError(f"names: {name!r}, of shape {index}, is no text")
         if len(names) != len(meshes):
             raise UsageError(f"names: there are {len(names)} for {len(meshes)} shapes")
     shapes = []
@@ -142,7 +157,9 @@ def _option_text(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
-    if isinstance(value, (list, tuple, np.ndarray)):
+    if isinstance(value, np.ndarray):
+        return _option_text(value.tolist())
+    if isinstance(value, (list, tuple)):
         return ",".join(_option_text(one) for one in value)
     return str(value)
 
@@ -163,7 +180,7 @@ def given_communicator(comm: Any) -> Optional[int]:
 
 def given_labels(what: str, labels: Iterable[Any]) -> list:
     rows = []
-    for index, row in enumerate(labels):
+    for index, row in enumerate(given_list(what, labels)):
         array = _NO_INTS if row is None else np.asarray(row)
         if array.ndim != 1 or (array.size and array.dtype.kind not in "iub"):
             raise InputError(f"shape {index}: the {what} must be F whole numbers, not {array.dtype} of the "

@@ -282,11 +282,40 @@ def test_bad_shapes_can_be_set_aside():
     (dict(names=["a", "../b"]), "without '/'"),
     (dict(feature_weights=[0, 0, 0, 0, 0]), "at least one"),
     (dict(comm=3), "comm"),
+    (dict(meshes=5), "the meshes: give a list"),
+    (dict(meshes={"a": 1}), "the meshes: give a list"),
+    (dict(meshes=[(CUBE, QUADS), (np.ma.masked_greater(CUBE, 0.5), QUADS)]), "shape 1: vertices are masked"),
+    (dict(parts=10 ** 30), "parts: 1000000000000000000000000000000 is not in 1"),
+    (dict(parts=True), "parts: True is no whole number"),
+    (dict(names=["a", None]), "names: None, of shape 1, is no text"),
+    (dict(names="ab"), "names: give a list"),
+    (dict(out=3), "3 is no path"),
+    (dict(state=5), "5 is no path"),
+    (dict(progress=5), "progress: 5 is no function"),
+    (dict(seed=-1), "seed: -1"),
+    (dict(seed=1.5), "seed = 1.5"),
+    (dict(align="maybe"), "align: maybe"),
 ])
 def test_bad_arguments_are_exceptions(arguments, words):
     given = {"meshes": [(CUBE, QUADS), (CUBE, QUADS)], "parts": 2, **TINY, **arguments}
     with pytest.raises((coseg.UsageError, coseg.InputError), match=words):
         coseg.segment(given.pop("meshes"), given.pop("parts"), **given)
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: coseg.assign([(CUBE, QUADS)], 5), "5 is no path"),
+    (lambda: coseg.Result.load(5), "5 is no path"),
+    (lambda: coseg.load_mesh(5), "5 is no path"),
+    (lambda: coseg.score([(CUBE, QUADS)], None, [[1] * 6]), "labels: give a list"),
+    (lambda: coseg.score([(CUBE, QUADS)], [[1] * 5], [[1] * 6]), "shape 0: 5 labels for 6 faces"),
+    (lambda: coseg.generate(5), "no family '5'"),
+    (lambda: coseg.generate("table", 2.5), "count: 2.5 is no whole number"),
+    (lambda: coseg.draw([(CUBE, QUADS)], [[1] * 5]), "shape 0: 5 labels for 6 faces"),
+    (lambda: coseg.draw([(CUBE, QUADS)], []), "1 shapes and 0 arrays"),
+])
+def test_bad_arguments_of_other_functions_are_exceptions(call, words):
+    with pytest.raises((coseg.UsageError, coseg.InputError), match=words):
+        call()
 
 
 def test_progress_tells_all_stages_and_may_end_the_call(tables):
