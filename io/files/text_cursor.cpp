@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -94,6 +95,10 @@ bool parse_real(std::string_view word, double& value) {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     const auto [end, cause] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size() || word.empty()) {
+        const auto read = static_cast<std::size_t>(end - word.data());
+        if (read > 0 && (word[read] == 'd' || word[read] == 'D'))
+            return parse_real(std::string(word.substr(0, read)).append("e").append(word.substr(read + 1)),
+                              value);
         value = std::numeric_limits<double>::quiet_NaN();
         return is_windows_no_number(word);
     }
@@ -107,6 +112,15 @@ bool parse_integer(std::string_view word, std::int64_t& value) {
     return cause == std::errc() && end == word.data() + word.size() && !word.empty();
 }
 
+bool parse_whole(std::string_view word, std::int64_t& value) {
+    if (parse_integer(word, value)) return true;
+    constexpr double largest = 9e15;  // whole numbers below it are exact
+    double real = 0.0;
+    if (!parse_real(word, real) || !(std::abs(real) <= largest) || real != std::floor(real)) return false;
+    value = static_cast<std::int64_t>(real);
+    return true;
+}
+
 std::string printable(std::string_view word) {
     constexpr std::size_t longest = 40;
     std::string shown;
@@ -115,5 +129,11 @@ std::string printable(std::string_view word) {
 }
 
 std::string in_quotes(std::string_view word) { return "'" + printable(word) + "'"; }
+
+std::string no_number(std::string_view word) {
+    const bool has_comma = word.find(',') != std::string_view::npos;
+    return in_quotes(word) +
+           (has_comma ? "; export the mesh with decimal points, and with blanks between numbers" : "");
+}
 
 }  // namespace coseg

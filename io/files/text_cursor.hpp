@@ -51,15 +51,21 @@ class TextCursor {
     std::int64_t line_ = 0;
 };
 
-/// The whole word as a number; false if it is something else. Values too small for a double become 0, too
-/// large ones infinite.
+/// The whole word as a number, its exponent behind e or, as in Fortran, d; false if it is something else.
+/// Values too small for a double become 0, too large ones infinite.
 bool parse_real(std::string_view word, double& value);
 bool parse_integer(std::string_view word, std::int64_t& value);
+
+/// As parse_integer, but the word may be a whole number with a point or an exponent, "3.0" or "3e+00".
+bool parse_whole(std::string_view word, std::int64_t& value);
 
 /// The word for messages, shortened and without bytes that cannot be printed.
 std::string printable(std::string_view word);
 
 /// The same in quotes.
 std::string in_quotes(std::string_view word);
+
+/// The same for a word that is no number; one with a comma is followed by what to do about it.
+std::string no_number(std::string_view word);
 
 }  // namespace coseg

@@ -32,8 +32,8 @@ class ObjReader {
         const TextCursor begin = cursor_;
         do {
             const std::string_view keyword = cursor_.word();
-            if (keyword == "v") read_vertex();
-            if (keyword == "f" || keyword == "fo") read_face();
+            if (keyword == "v" || keyword == "V") read_vertex();
+            if (keyword == "f" || keyword == "F" || keyword == "fo") read_face();
         } while (cursor_.next_line());
         if (vertex_count() == 0 && face_count() == 0) {
             begin.fail(
@@ -57,7 +57,7 @@ class ObjReader {
             const std::string_view word = cursor_.word();
             if (!parse_real(word, point[k])) {
                 cursor_.fail("vertex " + std::to_string(vertex_count()) +
-                             " needs three coordinates, but one is " + in_quotes(word));
+                             " needs three coordinates, but one is " + no_number(word));
             }
             if (!is_usable_coordinate(point[k])) unusable_.add(vertex_count(), point[k], cursor_.line());
         }
@@ -94,7 +94,7 @@ class ObjReader {
     /// high numbers show at the end of the file only.
     int vertex_number(std::string_view word) {
         std::int64_t index = 0;
-        if (!parse_integer(word.substr(0, word.find('/')), index)) {
+        if (!parse_whole(word.substr(0, word.find('/')), index)) {
             cursor_.fail("face " + std::to_string(face_count()) + " has " + in_quotes(word) +
                          " where a vertex number should stand");
         }

@@ -100,7 +100,7 @@ class OffReader {
             if (!parse_real(word, value)) {
                 cursor_.fail("vertex " + std::to_string(v) + " needs " +
                              (header_.has_weight ? "four" : "three") + " coordinates, but one is " +
-                             in_quotes(word));
+                             no_number(word));
             }
             if (k < 3)
                 point[k] = value;
@@ -121,7 +121,7 @@ class OffReader {
         const std::string_view first = cursor_.word_on_any_line();
         if (first.empty()) fail_at_end(f, header_.face_count, "faces");
         std::int64_t corners = 0;
-        if (!parse_integer(first, corners) || corners < (layout_.faces_by_line ? 0 : 1)) {
+        if (!parse_index(first, corners) || corners < (layout_.faces_by_line ? 0 : 1)) {
             cursor_.fail("face " + std::to_string(f) + " begins with " + in_quotes(first) +
                          " instead of its number of corners");
         }
@@ -151,10 +151,16 @@ class OffReader {
         return word;
     }
 
+    /// Whole numbers may have a point, but where the layout is guessed they tell corners from colours.
+    [[nodiscard]] bool parse_index(std::string_view word, std::int64_t& index) const {
+        const bool is_guessed = !layout_.faces_by_line || layout_.faces_wrap;
+        return is_guessed ? parse_integer(word, index) : parse_whole(word, index);
+    }
+
     void read_corner(std::int64_t f) {
         const std::string_view word = corner_word(f);
         std::int64_t index = 0;
-        if (!parse_integer(word, index)) {
+        if (!parse_index(word, index)) {
             cursor_.fail("face " + std::to_string(f) + " has " + in_quotes(word) +
                          " where a vertex number should stand");
         }

@@ -37,7 +37,7 @@ class OffHeaderReader {
     std::string_view behind_keyword(std::string_view word) {
         std::string_view rest = word;
         while (take_prefix(rest)) continue;
-        if (!rest.starts_with("OFF") && !rest.starts_with("off"))
+        if (!rest.starts_with("OFF") && !rest.starts_with("off") && !rest.starts_with("Off"))
             cursor().fail("an OFF file begins with OFF, this one with " + in_quotes(word));
         if (header_.has_weight) ++header_.coordinates;
         rest.remove_prefix(3);

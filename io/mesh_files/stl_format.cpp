@@ -82,15 +82,19 @@ bool begins_with(std::string_view word, std::string_view lower_case) {
 
 class StlTextReader {
   public:
-    StlTextReader(std::string_view bytes, const std::string& path) : cursor_(bytes, path, 0), path_(path) {}
+    /// comment: as of TextCursor; the names of solids may have any sign, so that most files have none.
+    StlTextReader(std::string_view bytes, const std::string& path, char comment)
+        : cursor_(bytes, path, comment), path_(path) {}
 
     ParsedMesh run() {
         bool is_inside = false;
         std::string_view word = cursor_.word_on_any_line();
         for (; !word.empty(); word = cursor_.word_on_any_line()) {
-            if (!is_inside && begins_with(word, "solid")) {
+            if (begins_with(word, "solid")) {  // the one before it may lack its end
                 pass_over_name();
                 is_inside = true;
+            } else if (is_inside && same_word(word, "color")) {
+                cursor_.skip_line();
             } else if (is_inside && same_word(word, "facet")) {
                 read_facet();
             } else if (is_inside && is_end_of(word, "solid")) {
@@ -156,19 +160,19 @@ class StlTextReader {
         if (!is_end_of(word, what)) fail_for(word, "end" + std::string(what));
     }
 
-    void expect_loop() {
-        const std::string_view word = cursor_.word_on_any_line();
+    void expect_loop(std::string_view word) {
         if (same_word(word, "outerloop")) return;
         if (!same_word(word, "outer")) fail_for(word, "outer loop");
         expect("loop");
     }
 
     void read_facet() {
-        expect("normal");
-        for (int k = 0; k < 3; ++k) {
-            if (cursor_.word_on_any_line().empty()) fail_for({}, {});
+        std::string_view word = cursor_.word_on_any_line();
+        if (same_word(word, "normal")) {
+            for (int k = 0; k < 3; ++k) word = cursor_.word_on_any_line();
+            word = cursor_.word_on_any_line();
         }
-        expect_loop();
+        expect_loop(word);
         Facet facet;
         for (Eigen::Vector3d& corner : facet) {
             expect("vertex");
@@ -182,7 +186,9 @@ class StlTextReader {
     double coordinate() {
         const std::string_view word = cursor_.word_on_any_line();
         double value = 0.0;
-        if (!parse_real(word, value)) fail_for(word, "a coordinate");
+        if (word.empty()) fail_for(word, {});
+        if (!parse_real(word, value))
+            cursor_.fail("facet " + number() + " has a coordinate that is " + no_number(word));
         if (!is_usable_coordinate(value)) {
             cursor_.fail("facet " + number() +
                          " has a coordinate that is not finite or beyond 1e37; correct it");
@@ -275,7 +281,8 @@ ParsedMesh read_stl(std::string_view bytes, const std::string& path) {
         return read_binary(bytes, path);
     if (is_text(bytes)) {
         const std::string_view first = TextCursor(bytes, path, 0).word_on_any_line();
-        if (begins_with(first, "solid")) return StlTextReader(bytes, path).run();
+        const char comment = first.starts_with('#') ? '#' : '\0';
+        if (comment != 0 || begins_with(first, "solid")) return StlTextReader(bytes, path, comment).run();
         throw Error(ExitCode::input, path + ": the file is text, but begins with " + in_quotes(first) +
                                          " and not with 'solid' as an STL file does; export the mesh again");
     }

@@ -43,6 +43,13 @@ TEST(ObjFormat, CornersInEveryForm) {
                                 "a.obj"));
 }
 
+TEST(ObjFormat, CapitalsAndWholeNumbersWithAPoint) {
+    expect_tetrahedron(read_obj(
+        "O A\nV 0 0 0\nV 1 0 0\nV 0 1 0\nV 0 0 1\nVN 0 0 1\nF 1 3 2\nF 1 2 4\nF 1 4 3\nF 2 3 4\n", "a.obj"));
+    expect_tetrahedron(
+        read_obj(obj_points + "f 1.0 3.0 2.0\nf 1 2 4\nf 1.0/1 4e0/1 3./1\nf 2 3 4\n", "a.obj"));
+}
+
 TEST(ObjFormat, VerticesThatNoFaceUsesNeedNoNumbers) {
     const ParsedMesh parsed = read_obj(
         "v nan 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -nan(ind) 0\nf 2 4 3\nf 2 3 "

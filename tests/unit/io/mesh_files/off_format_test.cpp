@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/mesh_files/mesh_reader.hpp"
+#include "src/base/error.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/real_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -132,6 +133,25 @@ TEST(OffFormat, FacesOfNoCornersKeepTheirPlace) {
 
 /// A number too few must not shift the others into another mesh. The number of a face's corners is left out:
 /// another one may take its place, and the rest of the line is then a colour.
+TEST(OffFormat, NumbersAsFortranAndNumPyWriteThem) {
+    expect_tetrahedron(
+        read_off("Off\n4 4 6\n0 0 0\n1.0D+00 0.d0 0\n0 +10.D-1 0\n0 0 1d0\n" + off_faces, "a.off"));
+    const std::string faces =
+        "3.0 0.0 2.0 1.0\n3. 0. 1. 3. 0.5 0.5 0.5\n3e+00 0e+00 3.0e+00 2e+00\n3 1 2 3\n";
+    expect_tetrahedron(read_off("OFF\n4 4 6\n" + off_points + faces, "a.off"));
+    for (const std::string wrong : {"3 0 2.5 1\n", "3 0 nan 1\n", "3 0 1e300 1\n", "3 0 d0 1\n"})
+        EXPECT_THROW(read_off("OFF\n4 1 0\n" + off_points + wrong, "a.off"), Error) << wrong;
+}
+
+TEST(OffFormat, CommasAreNamed) {
+    for (const std::string point : {"0,5 0,0 1,0\n", "0, 0, 1\n"}) {
+        const std::string says = test::error_of([&] {
+                                     read_off("OFF\n3 1 0\n0 0 0\n1 0 0\n" + point + "3 0 1 2\n", "a.off");
+                                 }).sentence;
+        EXPECT_NE(says.find("decimal points"), std::string::npos) << says;
+    }
+}
+
 TEST(OffFormat, LostNumbersAreNotMadeUpFor) {
     const std::string text = "OFF\n4 4 6\n" + off_points + off_faces;
     for (std::size_t i = 10; i < text.size(); ++i) {

@@ -68,6 +68,20 @@ TEST(StlFormat, TextInEveryDialect) {
         expect_tetrahedron(read_stl(dialect, "a.stl"));
 }
 
+TEST(StlFormat, TextWithColoursCommentsOrWithoutWhatNobodyReads) {
+    const std::string open_solid = "endfacet\nsolid b#2\nfacet normal -1 0 0\n";
+    for (const std::string& text :
+         {replaced(stl_text, "facet normal 0", "color 0.5 0.5 0.5\nfacet normal 0"),
+          replaced(stl_text, "facet normal 1 1 1", "facet"),
+          replaced(stl_text, "endfacet\nfacet normal -1 0 0\n", open_solid),
+          "# made by a program\n" + replaced(stl_text, "endloop", "endloop # of 3")})
+        expect_tetrahedron(read_stl(text, "a.stl"));
+    const std::string says = test::error_of([] {
+                                 read_stl(replaced(stl_text, "vertex 0 0 1", "vertex 0,0 0,0 1,0"), "a.stl");
+                             }).sentence;
+    EXPECT_NE(says.find("decimal points"), std::string::npos) << says;
+}
+
 TEST(StlFormat, TextThatEndsEarlyOrLate) {
     const ParsedMesh early = read_stl(stl_text.substr(0, stl_text.find("endsolid")), "a.stl");
     expect_tetrahedron({early.mesh, {}});
