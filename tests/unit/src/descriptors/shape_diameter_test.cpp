@@ -285,5 +285,21 @@ TEST(ShapeDiameter, RealMeshesGiveValuesInRange) {
     }
 }
 
+/// The caps are fans of slivers whose boxes all overlap. Above some 1,000 sides rays are cast from a part of the
+/// faces only, and the others take the mean of their neighbours'.
+TEST(ShapeDiameter, TangledBoxesCostRaysAndHardlyChangeValues) {
+    const auto without_value = [](const Eigen::VectorXd& thickness) {
+        return (thickness.array() == 0.0).count();
+    };
+    const TriMesh plain = test::prism(1.0, 1.0, 300);
+    const TriMesh tangled = test::prism(1.0, 1.0, 2400);
+    EXPECT_EQ(without_value(raw(plain)), 0);
+    EXPECT_GT(without_value(raw(tangled)), tangled.face_count() / 2);
+    const Eigen::VectorXd expected = diameter(plain);
+    const Eigen::VectorXd found = diameter(tangled);
+    EXPECT_NEAR(found.mean(), expected.mean(), 0.1);
+    EXPECT_LT((found.array() == 0.0).count(), tangled.face_count() / 100);
+}
+
 }  // namespace
 }  // namespace coseg
