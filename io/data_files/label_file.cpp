@@ -34,7 +34,7 @@ std::vector<int> read_labels(const std::string& path, int expected_count) {
     return labels;
 }
 
-void write_labels(const std::string& path, const std::vector<int>& labels) {
+std::string label_text(const std::vector<int>& labels) {
     std::string content;
     content.reserve(2 * labels.size() + 16);
     char digits[16];
@@ -42,7 +42,11 @@ void write_labels(const std::string& path, const std::vector<int>& labels) {
         content.append(digits, std::to_chars(digits, digits + sizeof digits, label).ptr);
         content.push_back('\n');
     }
-    write_file(path, content);
+    return content;
+}
+
+void write_labels(const std::string& path, const std::vector<int>& labels) {
+    write_file(path, label_text(labels));
 }
 
 }  // namespace coseg

@@ -11,6 +11,9 @@ namespace coseg {
 /// error names path, last line and both counts.
 std::vector<int> read_labels(const std::string& path, int expected_count = -1);
 
+/// The text of a label file.
+std::string label_text(const std::vector<int>& labels);
+
 /// Writes the file whole or not at all. Throws Error(output) as atomic_file.hpp does.
 void write_labels(const std::string& path, const std::vector<int>& labels);
 

@@ -35,7 +35,8 @@ FinishedRun run_of(const std::string& folder, const Json& report) {
     run.part_area = report.at("partition").at("part_area").get<std::vector<double>>();
     for (const Json& mesh : report.at("meshes")) {
         run.shapes.push_back({exact_text(mesh, "name"), exact_text(mesh, "path"),
-                              mesh.at("part_area").get<std::vector<double>>()});
+                              mesh.at("part_area").get<std::vector<double>>(), mesh.value("labels_xxh3", ""),
+                              mesh.value("patches_xxh3", "")});
     }
     return run;
 }
@@ -55,6 +56,9 @@ FinishedRun read_finished_run(const std::string& folder) {
             throw Error(ExitCode::input, path + ": is not a report of coseg run");
         FinishedRun run = run_of(folder, report);
         if (run.shapes.empty()) throw Error(ExitCode::input, path + ": lists no shape");
+        if (run.parts < 1 || run.part_area.size() != static_cast<std::size_t>(run.parts))
+            throw Error(ExitCode::input,
+                        path + ": its parts do not agree with each other; run coseg run again");
         return run;
     } catch (const Json::exception& error) {
         throw Error(ExitCode::input, path + ": cannot be read as a report of coseg run (" + error.what() +

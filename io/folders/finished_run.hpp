@@ -12,6 +12,9 @@ struct FinishedShape {
     std::string name;
     std::string path;               ///< of the mesh, as the run was given it
     std::vector<double> part_area;  ///< K, shares of the shape's area
+    /// Checksums of its label files as the run wrote them; empty in reports of versions without them.
+    std::string labels_xxh3;
+    std::string patches_xxh3;
 };
 
 struct FinishedRun {

@@ -27,6 +27,9 @@ struct ReportMesh {
     std::vector<double> part_area;  ///< share of the mesh's area, per part
     /// The mean over the area of the probability that a face has the right part; none where it is not known.
     std::optional<double> confidence;
+    /// Checksums of the label files, as `xxhsum -H2` prints them.
+    std::string labels_xxh3;
+    std::string patches_xxh3;
     /// In hexadecimal digits, where they are not UTF-8 and therefore no text of JSON.
     std::optional<std::string> name_bytes;
     std::optional<std::string> path_bytes;
@@ -34,6 +37,7 @@ struct ReportMesh {
         return std::tuple(
             inlined(&ReportMesh::facts), field("patches", &ReportMesh::patches),
             field("part_area", &ReportMesh::part_area), field("confidence", &ReportMesh::confidence),
+            field("labels_xxh3", &ReportMesh::labels_xxh3), field("patches_xxh3", &ReportMesh::patches_xxh3),
             field("name_bytes", &ReportMesh::name_bytes), field("path_bytes", &ReportMesh::path_bytes));
     }
 };

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <numeric>
 
 #include "io/data_files/alignment_file.hpp"
 #include "io/data_files/label_file.hpp"
+#include "io/files/content_hash.hpp"
+#include "io/files/file_contents.hpp"
 #include "io/mesh_files/mesh_list.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/index.hpp"
@@ -15,6 +19,7 @@
 #include "src/mesh/turned_polygons.hpp"
 #include "src/metrics/assignment.hpp"
 #include "src/parallel/exact_sum.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
@@ -49,6 +54,22 @@ std::map<std::string, Eigen::Matrix3d> rotations_of(const FinishedRun& run) {
     return rotations;
 }
 
+/// Reads labels of 0 .. count - 1, and notes the file if it has another checksum than the run's.
+std::vector<int> read_checked(LabelledMesh& shape, const std::string& path, const std::string& checksum,
+                              int count) {
+    std::vector<int> labels = read_labels(path, shape.mesh.face_count());
+    const auto wrong =
+        std::find_if(labels.begin(), labels.end(), [&](int label) { return label < 0 || label >= count; });
+    if (wrong != labels.end())
+        throw Error(ExitCode::input,
+                    path + ": face " + std::to_string(wrong - labels.begin()) + " has " +
+                        std::to_string(*wrong) +
+                        ", which the run did not have; correct the file, or run coseg run again");
+    if (!checksum.empty() && hash_bytes(read_file(path)).hex() != checksum)
+        shape.changed_files.push_back(path);
+    return labels;
+}
+
 LabelledMesh read_shape(const FinishedRun& run, int number, const FinishedInput& input,
                         const std::map<std::string, std::string>& paths) {
     const FinishedShape& shape = run.shapes[at(number)];
@@ -58,11 +79,33 @@ LabelledMesh read_shape(const FinishedRun& run, int number, const FinishedInput&
     labelled.path = path_of(shape, paths);
     labelled.mesh = read_mesh(labelled.path);
     const int faces = labelled.mesh.face_count();
-    labelled.part = read_labels(run.folder + "/labels/" + shape.name + ".seg", faces);
-    labelled.patch = read_labels(run.folder + "/patches/" + shape.name + ".seg", faces);
+    const std::string file = shape.name + ".seg";
+    labelled.part = read_checked(labelled, run.folder + "/labels/" + file, shape.labels_xxh3, run.parts);
+    labelled.patch = read_checked(labelled, run.folder + "/patches/" + file, shape.patches_xxh3,
+                                  std::numeric_limits<int>::max());
     const std::string truth = input.truth + "/" + shape.name + ".seg";
     if (!input.truth.empty() && fs::exists(truth)) labelled.truth = read_labels(truth, faces);
     return labelled;
+}
+
+struct ChangedFile {
+    std::string path;
+    static constexpr auto fields() { return std::tuple(field("path", &ChangedFile::path)); }
+};
+
+/// Collective.
+void warn_of_changed_files(const Comm& comm, const std::vector<LabelledMesh>& shapes) {
+    std::vector<ChangedFile> mine;
+    for (const LabelledMesh& shape : shapes) {
+        for (const std::string& path : shape.changed_files) mine.push_back({path});
+    }
+    const std::vector<ChangedFile> all = all_gather_records(comm, mine);
+    if (all.empty() || !comm.is_root()) return;
+    const auto first = std::min_element(
+        all.begin(), all.end(), [](const ChangedFile& a, const ChangedFile& b) { return a.path < b.path; });
+    std::fprintf(stderr, "coseg: warning: %s: is not as the run wrote it, but damaged or edited%s\n",
+                 first->path.c_str(),
+                 all.size() > 1 ? (", like " + std::to_string(all.size() - 1) + " more").c_str() : "");
 }
 
 int largest_truth_label(const std::vector<LabelledMesh>& shapes) {
@@ -112,6 +155,7 @@ std::vector<LabelledMesh> read_shapes(const Comm& comm, const FinishedRun& run, 
             if (rotation != rotations.end()) shapes.back().rotation = rotation->second;
         }
     });
+    warn_of_changed_files(comm, shapes);
     return shapes;
 }
 

@@ -23,6 +23,8 @@ struct LabelledMesh {
     std::vector<int> truth;  ///< likewise; empty where there is none
     /// By which the run turned the shape to stand like the others (alignment.json); else the identity.
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    /// Its label files that are not as the run wrote them.
+    std::vector<std::string> changed_files;
 };
 
 struct FinishedInput {
@@ -36,8 +38,9 @@ struct FinishedInput {
 FinishedRun read_run(const Comm& comm, const std::string& folder);
 
 /// This rank's share of the shapes, ascending by number: every shape whose number is the rank modulo the
-/// number of ranks. Collective; throws AgreedError(input) if a mesh is gone, or has another number of faces
-/// than it was segmented with.
+/// number of ranks. Prints a warning if label files are not as the run wrote them: damaged, or edited, which
+/// is the user's right. Collective; throws AgreedError(input) if a mesh is gone, has another number of
+/// faces than it was segmented with, or labels that the run did not have.
 std::vector<LabelledMesh> read_shapes(const Comm& comm, const FinishedRun& run, const FinishedInput& input);
 
 /// The shape as it stands beside the others: turned by its rotation. One colour per face of the file.

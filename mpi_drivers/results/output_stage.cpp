@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include "io/data_files/label_file.hpp"
+#include "io/files/content_hash.hpp"
 #include "io/mesh_files/ply_format.hpp"
 #include "io/reports/affinity_image.hpp"
 #include "io/reports/png_writer.hpp"
@@ -43,6 +44,27 @@ std::vector<double> to_vector(const Eigen::VectorXd& values) {
     return {values.data(), values.data() + values.size()};
 }
 
+struct LabelChecksums {
+    int mesh = 0;
+    std::string labels;
+    std::string patches;
+    static constexpr auto fields() {
+        return std::tuple(field("mesh", &LabelChecksums::mesh), field("labels", &LabelChecksums::labels),
+                          field("patches", &LabelChecksums::patches));
+    }
+};
+
+/// Of each mesh's label files, on all ranks.
+std::vector<LabelChecksums> gather_checksums(const Comm& comm, const RunOutcome& outcome) {
+    std::vector<LabelChecksums> mine;
+    for (const MeshLabels& labels : outcome.labels)
+        mine.push_back({labels.mesh, hash_bytes(label_text(labels.part)).hex(),
+                        hash_bytes(label_text(labels.patch)).hex()});
+    std::vector<LabelChecksums> all(outcome.collection.meshes.size());
+    for (LabelChecksums& row : all_gather_records(comm, mine)) all[at(row.mesh)] = std::move(row);
+    return all;
+}
+
 /// The mean confidence of each mesh over its area, on all ranks; empty where none is known.
 std::vector<double> gather_confidence(const Comm& comm, const RunOutcome& outcome) {
     if (outcome.cut.confidence.empty()) return {};
@@ -60,7 +82,8 @@ std::vector<double> gather_confidence(const Comm& comm, const RunOutcome& outcom
 }
 
 std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::MatrixXd& part_areas,
-                                      const std::vector<double>& confidence) {
+                                      const std::vector<double>& confidence,
+                                      const std::vector<LabelChecksums>& checksums) {
     std::vector<ReportMesh> rows;
     for (std::size_t m = 0; m < outcome.collection.meshes.size(); ++m) {
         const auto number = static_cast<int>(m);
@@ -69,6 +92,8 @@ std::vector<ReportMesh> report_meshes(const RunOutcome& outcome, const Eigen::Ma
                         .patches = outcome.collection.numbering.count(number),
                         .part_area = to_vector(part_areas.col(number)),
                         .confidence = confidence.empty() ? std::optional<double>() : confidence[m],
+                        .labels_xxh3 = checksums[m].labels,
+                        .patches_xxh3 = checksums[m].patches,
                         .name_bytes = hex_unless_utf8(facts.name),
                         .path_bytes = hex_unless_utf8(facts.path)});
     }
@@ -139,7 +164,8 @@ std::string run_report(const Comm& comm, const RunOutcome& outcome, const StageL
     report.features.ranges = outcome.ranges;
     add_strengths(report.features, strength, outcome);
     report.state = outcome.state;
-    report.meshes = report_meshes(outcome, part_areas, gather_confidence(comm, outcome));
+    report.meshes =
+        report_meshes(outcome, part_areas, gather_confidence(comm, outcome), gather_checksums(comm, outcome));
     report.set_aside = outcome.collection.set_aside;
     std::vector<std::pair<std::string, std::string>> options;
     for (const OptionValue& option : outcome.options) options.emplace_back(option.key, option.value);

@@ -14,6 +14,16 @@ grep -q collection.vtm "$work/out" || fail "export does not say where the collec
 [[ $(grep -c newmtl "$work/result/obj/parts.mtl") -eq 3 ]] || fail "materials"
 "$COSEG" export "$work/result" --to ply --out "$work/again" >"$work/out"
 cmp "$work/result/ply/pliers_0001.ply" "$work/again/ply/pliers_0001.ply" || fail "the exported PLY is not the run's"
+cp -r "$work/result" "$work/edited"
+sed -i '7s/.*/1/;8s/.*/2/' "$work/edited/labels/pliers_0001.seg" "$work/edited/labels/pliers_0002.seg"
+ranks 2 "$COSEG" export "$work/edited" --to off >"$work/out" 2>"$work/err" || fail "labels that were edited"
+grep -q "warning: $work/edited/labels/pliers_000[12].seg: is not as the run wrote it, but damaged or edited" "$work/err" ||
+    fail "no warning of labels that were edited: $(cat "$work/err")"
+sed -i '7s/.*/3/' "$work/edited/labels/pliers_0001.seg"
+refuses "a part that the run does not have" 3 "face 6 has 3, which the run did not have" "$COSEG" export "$work/edited" --to borders
+sed -i '7s/.*/-1/' "$work/edited/labels/pliers_0001.seg"
+refuses "a negative part" 3 "face 6 has -1" "$COSEG" render "$work/edited" --what errors --truth "$work/set/truth"
+rm -r "$work/edited"
 refuses "an unknown format" 2 "dxf" "$COSEG" export "$work/result" --to dxf
 
 python=/usr/bin/python3

@@ -78,7 +78,7 @@ TEST(Hdf5File, FindsEveryKindOfDamage) {
     verify_checksum(path);
     for (std::size_t at = 512; at < whole.size(); at += 97) {
         std::string bytes = whole;
-        bytes[at] = static_cast<char>(bytes[at] ^ 4);
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << at % 8));
         const std::string damaged = folder.file("damaged.h5", bytes);
         const auto caught = error_of([&] { const Hdf5Reader file(damaged, format, 3); });
         ASSERT_TRUE(caught.threw) << "byte " << at;
