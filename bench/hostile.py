@@ -2,15 +2,17 @@
 """Runs random hostile meshes beside healthy generated shapes, and reports hangs, crashes, time, memory and accuracy.
 
     bench/hostile.py --coseg build/bin/coseg [--meshes 400] [--batch 20] [--seed 1] [--ranks 2] [--families cup table]
-                     [--most-faces 5000] [--kinds KIND ...] [--keep DIR] [--out hostile.json] [--scratch DIR]
+                     [--most-faces 5000] [--healthy-faces F] [--kinds KIND ...] [--keep DIR] [--out hostile.json]
+                     [--scratch DIR] [-- OPTIONS OF coseg run]
 
 A batch is a folder of one family's healthy shapes (`coseg generate`) and of `--batch` hostile meshes; --batch 1 tries
-each alone. The same seed makes the same meshes, whatever their number. Each run has a limit of time, 10 times that of
-the healthy shapes alone and 60 s, and of memory (--memory MB a process). Reported are
+each alone. Where many are to be tried, --healthy-faces 2000 -- --patches 10 --geodesic-samples 50 makes the runs short. The same seed makes the same meshes, whatever their number. Each run has a limit of time, 10 times that of
+the healthy shapes alone and --patience s, and of memory (--memory MB a process). Reported are
 
 - failures: a run that ends by a signal, hangs, or has an exit code other than 0, and meshes set aside with the code of an
   internal error. The meshes of a batch that fails are tried one by one, and those to blame are kept in --keep;
-- time: seconds over those of the healthy run and how many times; beside it seconds of work a mesh as the report has them;
+- time: seconds over those of the healthy run, on the clock and of the processor, of which only the latter mean something on
+  a machine that does other work; beside it seconds of the slowest mesh as the report has them;
 - memory: peak over that of the healthy run;
 - accuracy: of the healthy shapes, against the generator's truth, with and without the hostile ones. Any shape of another
   kind takes some of the parts: what one healthy shape of --foreign costs is printed first.
@@ -225,6 +227,12 @@ def hostile_mesh(kinds, seed, number, most_faces):
     return f"hostile_{number:05d}_{kind}", mesh
 
 
+def cpu_seconds():
+    """Of all children that have ended, and theirs."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 class Runner:
     def __init__(self, args, scratch):
         self.args, self.scratch = args, scratch
@@ -242,9 +250,9 @@ class Runner:
         """What one run on the folder does: outcome, seconds and the report."""
         out = self.scratch / "out"
         shutil.rmtree(out, ignore_errors=True)
-        start = time.monotonic()
+        start, worked = time.monotonic(), cpu_seconds()
         launcher = ["mpirun", "-n", str(self.args.ranks)] if self.args.ranks > 1 else []
-        words = ["run", "--quiet", "--no-html", "--no-sheet", "--parts", str(parts), "--out", str(out), str(meshes)]
+        words = ["run", "--quiet", "--no-html", "--no-sheet", "--parts", str(parts), *self.args.options, "--out", str(out), str(meshes)]
         try:
             done = self.coseg(*words, timeout=timeout, launcher=launcher)
         except subprocess.TimeoutExpired:
@@ -254,7 +262,8 @@ class Runner:
             last = [line for line in done.stdout.splitlines() if line.startswith("coseg: ") and "warning" not in line]
             return {"outcome": f"exit code {done.returncode}", "seconds": seconds, "says": (last or done.stdout.splitlines()[-3:])}
         report = json.loads((out / "report.json").read_text())
-        return {"outcome": "ok", "seconds": seconds, "report": report, "memory": report["peak_memory_max_mib"]}
+        return {"outcome": "ok", "seconds": seconds, "cpu": cpu_seconds() - worked, "report": report,
+                "memory": report["peak_memory_max_mib"]}
 
     def accuracy(self, healthy):
         meshes = sorted(map(str, (healthy / "meshes").glob("*.off")))
@@ -280,7 +289,7 @@ def folder_of(healthy, hostile, place):
 
 def try_batch(runner, healthy, alone, hostile, parts):
     meshes = folder_of(healthy, hostile, runner.scratch / "meshes")
-    result = runner.run(meshes, parts, 60.0 + 10.0 * alone["seconds"])
+    result = runner.run(meshes, parts, runner.args.patience + 10.0 * alone["seconds"])
     if result["outcome"] == "ok":
         result["accuracy"] = runner.accuracy(healthy)
         result["internal"] = internal_failures(result["report"])
@@ -296,7 +305,7 @@ def figures(result, alone, hostile):
     if "report" in result:
         entries = [m for m in result["report"]["meshes"] if m["name"].startswith("hostile")]
         slowest = max(entries, key=lambda m: m["seconds"], default=None)
-        row.update(over_seconds=round(result["seconds"] - alone["seconds"], 2), over_mib=round(result["memory"] - alone["memory"]),
+        row.update(over_seconds=round(result["seconds"] - alone["seconds"], 2), over_cpu=round(result["cpu"] - alone["cpu"], 2), over_mib=round(result["memory"] - alone["memory"]),
                    accuracy_lost=round(alone["accuracy"] - result["accuracy"], 2), described=len(entries),
                    set_aside=len(result["report"].get("set_aside", [])), internal=result["internal"])
         if slowest:
@@ -330,13 +339,19 @@ def main():
     parser.add_argument("--families", nargs="+", default=["cup:2"], help="FAMILY:PARTS")
     parser.add_argument("--shapes", type=int, default=4, help="healthy shapes")
     parser.add_argument("--most-faces", type=int, default=5000)
+    parser.add_argument("--healthy-faces", type=int, help="faces of a healthy shape, as `coseg generate --faces`")
+    parser.add_argument("--patience", type=float, default=300.0, help="seconds that a run may take beyond 10 times the healthy one's")
     parser.add_argument("--memory", type=int, default=6000, help="limit of a process, MB")
     parser.add_argument("--kinds", nargs="+", default=sorted(KINDS), choices=sorted(KINDS))
     parser.add_argument("--foreign", default="table", help="family of the healthy shape that stands in for a hostile one")
     parser.add_argument("--keep", help="folder for the meshes to blame")
     parser.add_argument("--out")
     parser.add_argument("--scratch")
-    args = parser.parse_args()
+    words = sys.argv[1:]
+    behind = words.index("--") if "--" in words else len(words)
+    args = parser.parse_args(words[:behind])
+    args.options = words[behind + 1:]
+    faces = ["--faces", str(args.healthy_faces)] if args.healthy_faces else []
     args.coseg = os.path.abspath(args.coseg)
     rows, failed = [], 0
     with tempfile.TemporaryDirectory(dir=args.scratch) as scratch:
@@ -345,16 +360,16 @@ def main():
         for word in args.families:
             family, parts = word.split(":")
             healthy = runner.scratch / family
-            runner.coseg("generate", family, "--count", str(args.shapes), "--out", str(healthy))
+            runner.coseg("generate", family, "--count", str(args.shapes), *faces, "--out", str(healthy))
             alone = try_batch(runner, healthy, {"seconds": 60.0}, [], int(parts))
             if alone["outcome"] != "ok":
                 sys.exit(f"the healthy shapes of {family} cannot be run: {alone}")
             settings[family] = (healthy, alone, int(parts))
             foreign = runner.scratch / "foreign"
-            runner.coseg("generate", args.foreign, "--count", "1", "--out", str(foreign), "--force")
+            runner.coseg("generate", args.foreign, "--count", "1", *faces, "--out", str(foreign), "--force")
             (name, text), = ((path.stem, path.read_text()) for path in (foreign / "meshes").glob("*.off"))
             beside = try_batch(runner, healthy, alone, [(f"foreign_{name}", Text(text))], int(parts))
-            print(f"{family}: healthy alone {alone['seconds']:.1f} s, {alone['memory']:.0f} MiB, accuracy {alone['accuracy']:.2f}; "
+            print(f"{family}: healthy alone {alone['seconds']:.1f} s ({alone['cpu']:.1f} of the processor), {alone['memory']:.0f} MiB, accuracy {alone['accuracy']:.2f}; "
                   f"beside one {args.foreign} {beside['seconds']:.1f} s, accuracy {beside.get('accuracy', 0.0):.2f}", flush=True)
         for first in range(args.first, args.first + args.meshes, args.batch):
             last = min(first + args.batch, args.first + args.meshes)
@@ -369,7 +384,7 @@ def main():
             print(f"{first}-{last - 1}: " + ", ".join(f"{k} {v}" for k, v in row.items() if k != "meshes"), flush=True)
     good = [row for row in rows if "over_seconds" in row]
     print(f"{sum(len(row['meshes']) for row in rows)} hostile meshes in {len(rows)} runs, {failed} runs failed; "
-          + (f"at most {max(r['over_seconds'] for r in good)} s and {max(r['over_mib'] for r in good)} MiB over the healthy run, "
+          + (f"at most {max(r['over_seconds'] for r in good)} s, {max(r['over_cpu'] for r in good)} s of the processor and {max(r['over_mib'] for r in good)} MiB over the healthy run, "
              f"{max(r['accuracy_lost'] for r in good)} points of accuracy lost" if good else "no run succeeded"))
     if args.out:
         pathlib.Path(args.out).write_text(json.dumps(rows, indent=1) + "\n")
