@@ -9,6 +9,8 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
+#include "io/files/text_cursor.hpp"
+#include "io/files/text_encoding.hpp"
 #include "src/base/error.hpp"
 #include "src/base/spelling.hpp"
 #include "src/base/text.hpp"
@@ -273,7 +275,7 @@ std::string trimmed(std::string_view text) {
 int csv_number(const std::string& text, const std::string& where, int most) {
     const std::optional<int> number = whole_number(text);
     if (!number || *number < 0 || *number > most)
-        refuse_file(where + ": '" + text + "' must be a number from 0 to " + std::to_string(most));
+        refuse_file(where + ": " + in_quotes(text) + " must be a number from 0 to " + std::to_string(most));
     return *number;
 }
 
@@ -283,7 +285,8 @@ Correction csv_row(const std::vector<std::string>& cells, const std::string& whe
     c.where = where;
     const std::optional<CorrectionKind> kind = named<CorrectionKind>(cells.front());
     if (!kind || !is_constraint(*kind))
-        refuse_file(where + ": '" + cells.front() + "' is none of must-link, cannot-link, absent and name");
+        refuse_file(where + ": " + in_quotes(cells.front()) +
+                    " is none of must-link, cannot-link, absent and name");
     c.kind = *kind;
     const bool is_link = c.kind == CorrectionKind::must_link || c.kind == CorrectionKind::cannot_link;
     if (cells.size() != (is_link ? 5U : 3U))
@@ -349,7 +352,7 @@ void write_corrections(const std::string& path, const CorrectionFile& correction
 }
 
 std::vector<Correction> read_constraints(const std::string& path) {
-    const std::string bytes = read_file(path);
+    const std::string bytes = utf8_text(read_file(path));
     const std::size_t first = bytes.find_first_not_of(" \t\r\n");
     if (first == std::string::npos) refuse_file(path + ": there is no constraint in it");
     std::vector<Correction> constraints;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace coseg {
 
@@ -91,6 +92,13 @@ std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
         if (is_utf16(units)) return utf8_of(units);
     }
     return std::nullopt;
+}
+
+std::string utf8_text(std::string bytes) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (std::optional<std::string> decoded = utf8_of_utf16(bytes)) return *std::move(decoded);
+    if (bytes.starts_with(byte_order_mark)) bytes.erase(0, byte_order_mark.size());
+    return bytes;
 }
 
 }  // namespace coseg

@@ -12,4 +12,8 @@ namespace coseg {
 /// alone become U+FFFD.
 std::optional<std::string> utf8_of_utf16(std::string_view bytes);
 
+/// The bytes as text without a mark of their encoding: what editors of Windows save in UTF-16, or with a byte
+/// order mark before UTF-8, is decoded.
+std::string utf8_text(std::string bytes);
+
 }  // namespace coseg

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
-#include <string_view>
 #include <system_error>
 #include <tuple>
 
@@ -91,7 +89,7 @@ class MeshListExpander {
     }
 
     void add_list(const std::string& list) {
-        const std::string text = list_text(list);
+        const std::string text = utf8_text(read_file(list));
         const std::size_t before = found_.size();
         int number = 0;
         for (std::size_t begin = 0; begin < text.size();) {
@@ -102,15 +100,6 @@ class MeshListExpander {
             if (!line.empty()) add_path(located(line, list), list + ":" + std::to_string(number) + ": ");
         }
         if (found_.size() == before) fail(list + ": the list names no meshes; write one path a line");
-    }
-
-    /// Editors of Windows put a byte order mark before UTF-8, or save UTF-16.
-    static std::string list_text(const std::string& list) {
-        constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-        std::string text = read_file(list);
-        if (const std::optional<std::string> decoded = utf8_of_utf16(text)) return *decoded;
-        if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
-        return text;
     }
 
     static std::string without_comment(std::string line) {

@@ -26,8 +26,8 @@ RayCone shape_diameter_cone();
 /// thickness t has about 1.3 t. geometry = face_geometry(mesh). Rays start at the centroid. The frame is
 /// turned by the mean direction of the three edges. This direction is defined up to a third of a turn, and so
 /// is the cone; values therefore depend neither on the order of corners nor on the orientation in space. In a
-/// tangle, where a line meets the bounding boxes of more than 128 triangles on average, rays are cast from every
-/// second, third, ... face only, so that time grows with the number of faces; the others have 0.
+/// tangle, where a line meets the bounding boxes of more than 128 triangles on average, rays are cast from
+/// every second, third, ... face only, so that time grows with the number of faces; the others have 0.
 Eigen::VectorXd shape_diameter_raw(const TriMesh& mesh, const FaceGeometry& geometry);
 
 /// The shape diameter of every face, in [0, 1]. It is computed in three steps: the thickness; three rounds of

@@ -4,6 +4,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "src/base/error.hpp"
+#include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace coseg {
@@ -83,6 +84,11 @@ TEST(CorrectionFile, ReadsTheSameConstraintsFromCsvAndFromJson) {
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_EQ(correction_text(from_csv[k]), correction_text(from_json[k]));
     EXPECT_EQ(from_csv[1].where, csv + ":4");
+    write_file(csv, "\xEF\xBB\xBFmust-link,a,3,b,4\r\n");  // as spreadsheets save it
+    EXPECT_EQ(correction_text(read_constraints(csv).at(0)), correction_text(from_json[0]));
+    write_file(csv, std::string("\0\0 must-link,a,3,b,4\n", 22));
+    const std::string says = test::error_of([&] { read_constraints(csv); }).sentence;
+    EXPECT_NE(says.find("is none of must-link"), std::string::npos) << says;
     write_file(
         json,
         R"({"format": "coseg constraints", "version": 1, "constraints": [{"act": "split", "part": 1}]})");

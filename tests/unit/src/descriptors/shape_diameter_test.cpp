@@ -285,8 +285,8 @@ TEST(ShapeDiameter, RealMeshesGiveValuesInRange) {
     }
 }
 
-/// The caps are fans of slivers whose boxes all overlap. Above some 1,000 sides rays are cast from a part of the
-/// faces only, and the others take the mean of their neighbours'.
+/// The caps are fans of slivers whose boxes all overlap. Above some 1,000 sides rays are cast from a part of
+/// the faces only, and the others take the mean of their neighbours'.
 TEST(ShapeDiameter, TangledBoxesCostRaysAndHardlyChangeValues) {
     const auto without_value = [](const Eigen::VectorXd& thickness) {
         return (thickness.array() == 0.0).count();
