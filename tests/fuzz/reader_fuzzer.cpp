@@ -1,6 +1,6 @@
 // Gives a reader bytes that libFuzzer makes up (tests/fuzz/run.sh). The variable COSEG_FUZZED says which
-// reader: the suffix of a mesh format, ".seg" for labels, or ".txt" for names. Whatever the bytes are, the
-// reader must return what its header says, or throw Error(input) with a sentence.
+// reader: the suffix of a mesh format, or one of those in `file_readers`. Whatever the bytes are, the reader
+// must return what its header says, or throw Error(input) with a sentence.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -9,11 +9,18 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
+#include "io/data_files/alignment_file.hpp"
+#include "io/data_files/correction_file.hpp"
+#include "io/data_files/face_feature_file.hpp"
 #include "io/data_files/label_file.hpp"
 #include "io/data_files/name_file.hpp"
+#include "io/data_files/problem_file.hpp"
+#include "io/folders/finished_run.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
@@ -57,6 +64,38 @@ class MemoryFile {
     int file_;
 };
 
+/// The report of a run must say what the commands that read it rely on.
+void read_report(const std::string& path) {
+    static const std::string folder = [] {
+        char name[] = "/tmp/coseg_fuzzed_XXXXXX";
+        require(mkdtemp(name) != nullptr, "no folder");
+        return std::string(name);
+    }();
+    static const std::string report = folder + "/report.json";
+    std::filesystem::remove(report);
+    std::filesystem::create_symlink(path, report);
+    const coseg::FinishedRun run = coseg::read_finished_run(folder);
+    require(run.parts >= 1 && std::ssize(run.part_area) == run.parts && !run.shapes.empty(),
+            "a run without parts or shapes");
+}
+
+void read_npy(std::string_view bytes) {
+    constexpr int faces = 4;
+    const Eigen::MatrixXf features = coseg::parse_npy_features(bytes, "fuzzed.npy", faces);
+    require(features.cols() == faces && features.allFinite(), "features that are not of the faces");
+}
+
+/// Readers that open a file themselves, by the suffix of the examples in tests/corpus.
+using FileReader = void (*)(const std::string& path);
+const std::map<std::string, FileReader> file_readers{
+    {".seg", [](const std::string& path) { coseg::read_labels(path, -1); }},
+    {".txt", [](const std::string& path) { coseg::read_names(path); }},
+    {".report", read_report},
+    {".corrections", [](const std::string& path) { coseg::read_corrections(path); }},
+    {".constraints", [](const std::string& path) { coseg::read_constraints(path); }},
+    {".alignment", [](const std::string& path) { coseg::read_alignment(path); }},
+    {".problem", [](const std::string& path) { coseg::read_problem_file(path); }}};
+
 /// The suffix of what is fuzzed.
 const std::string& fuzzed_suffix() {
     static const std::string suffix = [] {
@@ -69,10 +108,11 @@ const std::string& fuzzed_suffix() {
 
 void read(std::string_view bytes) {
     const std::string& suffix = fuzzed_suffix();
-    if (suffix == ".seg") {
-        coseg::read_labels(MemoryFile(bytes).path(), -1);
-    } else if (suffix == ".txt") {
-        coseg::read_names(MemoryFile(bytes).path());
+    const auto reader = file_readers.find(suffix);
+    if (reader != file_readers.end()) {
+        reader->second(MemoryFile(bytes).path());
+    } else if (suffix == ".npy") {
+        read_npy(bytes);
     } else {
         const coseg::ParsedMesh parsed = coseg::parse_mesh(bytes, "fuzzed" + suffix);
         require_sound(parsed.mesh);

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Fuzzes the readers of meshes, labels and names with libFuzzer under the address and the undefined-behaviour sanitizer.
+# Fuzzes the readers of meshes, labels, names, reports, corrections, constraints, alignments, problems and NPY files with
+# libFuzzer under the address and the undefined-behaviour sanitizer.
 #
-#   tests/fuzz/run.sh [SECONDS [SUFFIX ...]]     60 seconds each of .off .obj .ply .stl .glb .gltf .seg .txt
+#   tests/fuzz/run.sh [SECONDS [SUFFIX ...]]     60 seconds each of all readers; the suffixes are those in tests/corpus
 #
 # Needs clang++ with its runtime libraries (Debian: clang, libclang-rt-14-dev); without them it says so and ends with 77. The
 # fuzzers are built in COSEG_FUZZ_BUILD, or build-fuzz/. They start from tests/corpus and keep what they find new in corpus/
@@ -12,7 +13,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 seconds=${1:-60}
 shift $(($# > 0 ? 1 : 0))
 suffixes=("$@")
-((${#suffixes[@]} > 0)) || suffixes=(.off .obj .ply .stl .glb .gltf .seg .txt)
+((${#suffixes[@]} > 0)) || suffixes=(.off .obj .ply .stl .glb .gltf .seg .txt .report .corrections .constraints .alignment .problem .npy)
 build=${COSEG_FUZZ_BUILD:-$root/build-fuzz}
 mkdir -p "$build"
 if ! command -v clang++ >/dev/null ||
@@ -23,13 +24,17 @@ if ! command -v clang++ >/dev/null ||
 fi
 
 sources=("$root"/io/mesh_files/*.cpp "$root"/io/gltf/*.cpp "$root"/src/mesh/{face_triangles,polygon_triangulation}.cpp
-    "$root"/io/data_files/{label,name}_file.cpp
+    "$root"/io/data_files/{label,name,correction,alignment,face_feature,problem}_file.cpp
+    "$root"/io/folders/finished_run.cpp "$root"/io/files/{hdf5_file,content_hash}.cpp
     "$root"/io/files/{atomic_file,file_contents,text_cursor,text_encoding}.cpp "$root"/src/base/*.cpp
     "$root"/src/pictures/{part_colors,image}.cpp)
+read -ra hdf5_includes < <(pkg-config --cflags hdf5)
+read -ra hdf5_libraries < <(pkg-config --libs hdf5)
 checks=("-fsanitize=address,undefined" -fno-sanitize-recover=undefined -D_GLIBCXX_ASSERTIONS)
 ccache=()
 if command -v ccache >/dev/null; then ccache=(ccache); fi
-compile=("${ccache[@]}" clang++ -std=c++20 -O1 -g1 "${checks[@]}" "-I$root" -isystem /usr/include/eigen3)
+compile=("${ccache[@]}" clang++ -std=c++20 -O1 -g1 '-DCOSEG_VERSION="fuzzed"' "${checks[@]}" "-I$root" -isystem /usr/include/eigen3
+    "${hdf5_includes[@]}")
 
 echo "building the readers"
 mkdir -p "$build/objects"
@@ -39,7 +44,7 @@ done | xargs -0 -n 3 -P "$(nproc)" "${compile[@]}" -fsanitize=fuzzer-no-link -c
 
 program=$build/reader_fuzzer
 "${compile[@]}" -fsanitize=fuzzer-no-link -c -o "$build/reader_fuzzer.o" "$root/tests/fuzz/reader_fuzzer.cpp"
-clang++ "${checks[@]}" -fsanitize=fuzzer -o "$program" "$build/reader_fuzzer.o" "$build"/objects/*.o
+clang++ "${checks[@]}" -fsanitize=fuzzer -o "$program" "$build/reader_fuzzer.o" "$build"/objects/*.o "${hdf5_libraries[@]}" -lxxhash
 
 # fuzz SUFFIX : fuzzes one reader.
 fuzz() {
