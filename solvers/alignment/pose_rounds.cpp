@@ -91,6 +91,14 @@ LinkedPoints mirrored(LinkedPoints points) {
 
 }  // namespace
 
+double median_agreement(const std::vector<ShapePose>& poses) {
+    std::vector<double> agreements;
+    for (const ShapePose& pose : poses) agreements.push_back(pose.agreement);
+    const auto middle = agreements.begin() + std::ssize(agreements) / 2;
+    std::nth_element(agreements.begin(), middle, agreements.end());
+    return *middle;
+}
+
 PoseRounds::PoseRounds(const Comm& comm, const AlignmentInput& input, const LinksOfMeshes& links)
     : comm_(comm), input_(input), links_(links), poses_(input.mesh_keys.size()) {
     stand_as_in_files();
@@ -223,7 +231,6 @@ void PoseRounds::fit(FitStarts starts) {
 
 ShapePose PoseRounds::turned_outlier(int mesh, const LinkedPoints& points, double enough) const {
     ShapePose pose = poses_[at(mesh)];
-    pose.found = true;
     pose.agreement = agreement(points, pose.rotation);
     if (pose.is_turned()) {
         const FittedRotation again = fitted_near(points, pose.rotation);
@@ -240,11 +247,7 @@ ShapePose PoseRounds::turned_outlier(int mesh, const LinkedPoints& points, doubl
 }
 
 void PoseRounds::turn_outliers() {
-    std::vector<double> agreements;
-    for (const ShapePose& pose : poses_) agreements.push_back(pose.agreement);
-    const auto middle = agreements.begin() + std::ssize(agreements) / 2;
-    std::nth_element(agreements.begin(), middle, agreements.end());
-    const double enough = outlier_share_of_median * *middle;
+    const double enough = outlier_share_of_median * median_agreement(poses_);
     round([&](int mesh, const std::vector<PatchLink>& links) {
         return links.empty() ? poses_[at(mesh)] : turned_outlier(mesh, points_of(links), enough);
     });

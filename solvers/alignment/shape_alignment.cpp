@@ -70,8 +70,12 @@ void turn(std::vector<ShapePose>& poses, const Eigen::Matrix3d& frame) {
     }
 }
 
-/// Most shapes stand alike: these stay, and so does their frame.
+/// Most shapes stand alike: these stay, and so does their frame. Shapes of which the links say little stand
+/// like the others as long as nothing speaks against it.
 ShapeAlignment outliers_turned(PoseRounds& rounds, ShapeAlignment alignment) {
+    std::vector<ShapePose> poses = rounds.poses();
+    for (ShapePose& pose : poses) pose.found = true;
+    rounds.set(std::move(poses));
     for (int round = 0; round < outlier_rounds; ++round) rounds.turn_outliers();
     const auto turned = std::count_if(rounds.poses().begin(), rounds.poses().end(),
                                       [](const ShapePose& pose) { return pose.is_turned(); });
@@ -89,11 +93,8 @@ ShapeAlignment outliers_turned(PoseRounds& rounds, ShapeAlignment alignment) {
 /// Whose links agree much less than those of others stands by chance: a chair without a back is put on its
 /// head if its one foot is linked with backs.
 void doubt_where_links_agree_little(std::vector<ShapePose>& poses) {
-    std::vector<double> agreements;
-    for (const ShapePose& pose : poses) agreements.push_back(pose.agreement);
-    const auto middle = agreements.begin() + std::ssize(agreements) / 2;
-    std::nth_element(agreements.begin(), middle, agreements.end());
-    for (ShapePose& pose : poses) pose.found = pose.found && pose.agreement >= enough_agreement * *middle;
+    const double enough = enough_agreement * median_agreement(poses);
+    for (ShapePose& pose : poses) pose.found = pose.found && pose.agreement >= enough;
 }
 
 }  // namespace
