@@ -63,15 +63,14 @@ std::vector<std::vector<int>> starts_by_graph(const std::vector<CutStart>& start
 std::vector<PartitionCandidate> clusterings_of_graph(const Comm& group, const ClusteringTask& task,
                                                      const std::vector<int>& starts, VectorSums sums) {
     const std::vector<CutStart>& all = task.starts;
-    const SparseRows graph =
-        graph_of(task.terms, task.graphs, all[at(starts.front())].graph, task.drop_below);
+    SparseRows graph = graph_of(task.terms, task.graphs, all[at(starts.front())].graph, task.drop_below);
     int count = task.parts;
     for (const int k : starts) count = std::max(count, all[at(k)].clusters);
     SpectralOptions spectral = task.spectral;
     spectral.sums = sums;
     const SpectralEmbedding embedding =
-        spectral_embedding(group, graph, task.parts, count, spectral, task.graphs.mesh_of);
-    const GraphCut cut{task.terms.within_mesh_affinity, embedding, graph.size};
+        spectral_embedding(group, std::move(graph), task.parts, count, spectral, task.graphs.mesh_of);
+    const GraphCut cut{task.terms.within_mesh_affinity, embedding, task.terms.base.size};
     std::vector<PartitionCandidate> clusterings;
     for (const int k : starts) clusterings.push_back(clustering(cut, k, all[at(k)]));
     return clusterings;

@@ -1,7 +1,6 @@
 #include "solvers/spectral/row_product.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 
@@ -45,9 +44,10 @@ std::vector<char> asked_rows(const SparseRows& matrix, const GroupBalance& balan
 }  // namespace
 
 RowProduct::RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance, VectorSums sums)
-    : size_(matrix.size), sums_(sums), matrix_(std::move(matrix)), vector_(row_vector(comm, size_, sums)) {
-    number_columns(comm, balance);
-    const PetscInt rows = petsc_int(matrix_.local_rows(), "rows");
+    : size_(matrix.size), sums_(sums), vector_(row_vector(comm, size_, sums)) {
+    number_columns(comm, balance, matrix);
+    const PetscInt rows = petsc_int(matrix.local_rows(), "rows");
+    rows_ = SlicedRows(std::move(matrix));
     const PetscInt all = petsc_int(size_, "patches");
     check(MatCreateShell(comm.raw(), rows, rows, all, all, this, shell_.out()), "MatCreateShell");
     check(MatShellSetOperation(shell_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)),
@@ -59,18 +59,18 @@ RowProduct::RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& 
 
 /// On one rank columns are as they are. Otherwise each becomes its place among the entries asked for, which
 /// keeps the order of a row's columns.
-void RowProduct::number_columns(const Comm& comm, const GroupBalance& balance) {
+void RowProduct::number_columns(const Comm& comm, const GroupBalance& balance, SparseRows& matrix) {
     std::vector<int> place(at(size_));
     if (comm.size() == 1) {
         std::iota(place.begin(), place.end(), 0);
     } else {
-        const std::vector<char> asked = asked_rows(matrix_, balance);
+        const std::vector<char> asked = asked_rows(matrix, balance);
         std::vector<PetscInt> rows;
         for (std::size_t i = 0; i < asked.size(); ++i) {
             place[i] = static_cast<int>(rows.size());
             if (asked[i] != 0) rows.push_back(static_cast<PetscInt>(i));
         }
-        for (int& column : matrix_.columns) column = place[at(column)];
+        for (int& column : matrix.columns) column = place[at(column)];
         const auto count = static_cast<PetscInt>(rows.size());
         IndexSet from;
         check(VecCreateSeq(PETSC_COMM_SELF, count, needed_.out()), "VecCreateSeq");
@@ -79,16 +79,16 @@ void RowProduct::number_columns(const Comm& comm, const GroupBalance& balance) {
         check(VecScatterCreate(vector_.get(), from.get(), needed_.get(), nullptr, scatter_.out()),
               "VecScatterCreate");
     }
-    if (balance.weight != 0.0) number_groups(balance, place);
+    if (balance.weight != 0.0) number_groups(balance, matrix.rows, place);
 }
 
 /// The groups of this rank's rows, numbered 0, 1, ... in the order of their names.
-void RowProduct::number_groups(const GroupBalance& balance, const std::vector<int>& place_of_row) {
-    const auto begin = at(matrix_.rows.begin);
-    const auto end = at(matrix_.rows.end);
+void RowProduct::number_groups(const GroupBalance& balance, BlockRange own,
+                               const std::vector<int>& place_of_row) {
+    const auto begin = at(own.begin);
+    const auto end = at(own.end);
     groups_.weight = balance.weight;
-    std::vector<int> names(balance.group.begin() + matrix_.rows.begin,
-                           balance.group.begin() + matrix_.rows.end);
+    std::vector<int> names(balance.group.begin() + own.begin, balance.group.begin() + own.end);
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     std::vector<std::vector<GroupRow>> rows(names.size());
@@ -106,38 +106,6 @@ void RowProduct::number_groups(const GroupBalance& balance, const std::vector<in
         groups_.offsets.push_back(groups_.rows.size());
     }
     groups_.sums.resize(names.size());
-}
-
-/// Adds the row's products from entry `skip` of the row on.
-double RowProduct::add_products(std::size_t row, std::int64_t skip, double sum, const double* x) const {
-    for (auto k = at(matrix_.offsets[row] + skip); k < at(matrix_.offsets[row + 1]); ++k)
-        sum += matrix_.values[k] * x[matrix_.columns[k]];
-    return sum;
-}
-
-/// Side by side as far as the shortest of the rows goes: one sum's additions wait for each other.
-void RowProduct::multiply_four_rows(std::size_t first, const double* x, double* y) const {
-    std::array<const double*, 4> values{};
-    std::array<const int*, 4> columns{};
-    std::array<double, 4> sums{};
-    std::int64_t shared = matrix_.size;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        const std::int64_t begin = matrix_.offsets[first + i];
-        values[i] = matrix_.values.data() + begin;
-        columns[i] = matrix_.columns.data() + begin;
-        shared = std::min(shared, matrix_.offsets[first + i + 1] - begin);
-    }
-    for (std::int64_t k = 0; k < shared; ++k) {
-        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i][k] * x[columns[i][k]];
-    }
-    for (std::size_t i = 0; i < sums.size(); ++i) y[first + i] = add_products(first + i, shared, sums[i], x);
-}
-
-void RowProduct::multiply_rows(const double* x, double* y) const {
-    const auto rows = at(matrix_.local_rows());
-    const std::size_t whole = rows - rows % 4;
-    for (std::size_t r = 0; r < whole; r += 4) multiply_four_rows(r, x, y);
-    for (std::size_t r = whole; r < rows; ++r) y[r] = add_products(r, 0, 0.0, x);
 }
 
 void RowProduct::subtract_balance(const double* x, double* y) {
@@ -162,7 +130,7 @@ PetscErrorCode RowProduct::multiply(Vec x, Vec y) {
     if (code == 0) code = VecGetArrayRead(source, &from);
     if (code == 0) code = VecGetArrayWrite(y, &to);
     if (code != 0) return code;
-    multiply_rows(from, to);
+    rows_.multiply(from, to);
     subtract_balance(from, to);
     code = VecRestoreArrayWrite(y, &to);
     return code != 0 ? code : VecRestoreArrayRead(source, &from);

@@ -5,6 +5,7 @@
 
 #include "solvers/affinity/sparse_rows.hpp"
 #include "solvers/petsc/petsc_handle.hpp"
+#include "solvers/spectral/sliced_rows.hpp"
 #include "solvers/spectral/vector_sums.hpp"
 #include "src/parallel/comm.hpp"
 
@@ -47,11 +48,8 @@ class RowProduct {
     PetscErrorCode multiply(Vec x, Vec y);
 
   private:
-    void number_columns(const Comm& comm, const GroupBalance& balance);
-    void number_groups(const GroupBalance& balance, const std::vector<int>& place_of_row);
-    void multiply_rows(const double* x, double* y) const;
-    void multiply_four_rows(std::size_t first, const double* x, double* y) const;
-    [[nodiscard]] double add_products(std::size_t row, std::int64_t skip, double sum, const double* x) const;
+    void number_columns(const Comm& comm, const GroupBalance& balance, SparseRows& matrix);
+    void number_groups(const GroupBalance& balance, BlockRange own, const std::vector<int>& place_of_row);
     void subtract_balance(const double* x, double* y);
 
     /// A row of a group: where x has it, and its indicator.
@@ -71,7 +69,7 @@ class RowProduct {
 
     std::int64_t size_ = 0;
     VectorSums sums_;
-    SparseRows matrix_;
+    SlicedRows rows_;
     Groups groups_;
     PetscVector vector_;
     PetscVector needed_;  ///< the entries of x that this rank asks for, ascending; none on one rank

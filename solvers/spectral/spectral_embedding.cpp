@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "solvers/affinity/graph_components.hpp"
 #include "solvers/spectral/leading_eigenpairs.hpp"
@@ -73,7 +74,8 @@ void refuse_too_few(std::size_t rows, int parts) {
     }
 }
 
-CutOperator cut_operator(const Comm& comm, const SparseRows& affinity, int parts, double offset) {
+/// Takes the affinity.
+CutOperator cut_operator(const Comm& comm, SparseRows affinity, int parts, double offset) {
     CutOperator result;
     result.own = affinity.rows;
     result.components = main_components(connected_components(comm, affinity), parts);
@@ -90,7 +92,8 @@ CutOperator cut_operator(const Comm& comm, const SparseRows& affinity, int parts
         inverse_root[i] = 1.0 / std::sqrt(result.degree[i]);
         aside[i] = 0.0;
     }
-    result.matrix = offset == 0.0 ? affinity : plus_diagonal(affinity, std::vector<double>(size, offset));
+    result.matrix =
+        offset == 0.0 ? std::move(affinity) : plus_diagonal(affinity, std::vector<double>(size, offset));
     scale_both_sides(result.matrix, inverse_root);
     if (result.rows.size() < size) result.matrix = plus_diagonal(result.matrix, aside);
     return result;
@@ -243,18 +246,18 @@ Eigen::MatrixXd gathered_coordinates(const Comm& comm, const CutOperator& op, co
 
 }  // namespace
 
-SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinity, int parts, int count,
+SpectralEmbedding spectral_embedding(const Comm& comm, SparseRows affinity, int parts, int count,
                                      const SpectralOptions& options, const std::vector<int>& mesh_of) {
     if (options.mesh_balance > 0.0 && (options.offset != 0.0 || std::ssize(mesh_of) != affinity.size)) {
         throw AgreedError(ExitCode::internal,
                           "a cut with mesh balance needs the mesh of each patch, and no offset");
     }
-    CutOperator op = cut_operator(comm, affinity, parts, options.offset);
+    const std::int64_t size = affinity.size;
+    CutOperator op = cut_operator(comm, std::move(affinity), parts, options.offset);
     const int vectors = std::min(count, static_cast<int>(op.rows.size()));
-    const EigenPairs pairs =
-        affinity.size <= dense_rows
-            ? dense_eigenpairs(comm, op, vectors, options, mesh_of)
-            : sparse_eigenpairs(comm, op, vectors, options, mesh_balance(op, options, mesh_of));
+    const EigenPairs pairs = size <= dense_rows ? dense_eigenpairs(comm, op, vectors, options, mesh_of)
+                                                : sparse_eigenpairs(comm, op, vectors, options,
+                                                                    mesh_balance(op, options, mesh_of));
     SpectralEmbedding embedding;
     embedding.rows = op.rows;
     embedding.eigenvalues = pairs.values;

@@ -33,7 +33,8 @@ struct SpectralEmbedding {
 inline constexpr int dense_rows = 128;
 
 /// The `count` largest eigenvectors of D^-1/2 S D^-1/2, multiplied by D^-1/2, for a cut into
-/// `parts` <= count; fewer where fewer rows take part. `affinity` is symmetric with entries >= 0.
+/// `parts` <= count; fewer where fewer rows take part. `affinity` is symmetric with entries >= 0; whoever
+/// moves it here does not hold it beside the operator made of it.
 ///
 /// The eigenvectors of eigenvalue 1 are known, one for each component, and are deflated instead of
 /// computed. The others come from SLEPc's Krylov-Schur method with a seeded start. Further solves on the
@@ -55,7 +56,7 @@ inline constexpr int dense_rows = 128;
 /// Source: Shi and Malik 2000; the code of Cour, Yu and Shi, which the paper used.
 ///
 /// Deviates: rows are set aside (main_components), and mesh_balance.
-SpectralEmbedding spectral_embedding(const Comm& comm, const SparseRows& affinity, int parts, int count,
+SpectralEmbedding spectral_embedding(const Comm& comm, SparseRows affinity, int parts, int count,
                                      const SpectralOptions& options, const std::vector<int>& mesh_of = {});
 
 }  // namespace coseg
