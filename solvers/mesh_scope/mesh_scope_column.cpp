@@ -6,6 +6,7 @@
 
 #include "solvers/subspace/row_scope_column.hpp"
 #include "src/base/index.hpp"
+#include "src/base/vector_clones.hpp"
 
 namespace coseg {
 
@@ -57,8 +58,10 @@ double MeshScopeColumn::shrink_groups(double step) {
     return penalty;
 }
 
+COSEG_VECTOR_CLONES
 void MeshScopeColumn::reconstruct_trial() {
     std::fill(trial_reconstruction_.begin(), trial_reconstruction_.end(), 0.0);
+    double* z = trial_reconstruction_.data();
     const auto features = at(stack_.features);
     for (std::size_t p = 0; p < column_.rows.size(); ++p) {
         const double* x =
@@ -66,9 +69,7 @@ void MeshScopeColumn::reconstruct_trial() {
         for (std::size_t h = 0; h < features; ++h) {
             const double weight = trial_weights_[p * features + h];
             if (weight == 0.0) continue;
-            for (int k = stack_.offset[h]; k < stack_.offset[h + 1]; ++k) {
-                trial_reconstruction_[at(k)] += weight * x[k];
-            }
+            for (int k = stack_.offset[h]; k < stack_.offset[h + 1]; ++k) z[k] += weight * x[k];
         }
     }
 }
