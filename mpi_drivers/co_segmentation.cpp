@@ -73,8 +73,10 @@ PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entri
         kept.positions = turned_positions(alignment, kept.positions, collection.numbering.mesh_of());
     checkpoints.warn_of_damage(log);
     folders.end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
-    return {{options, std::move(collection), std::move(kept), std::move(optimisation), std::move(cut),
-             std::move(examples)},
+    RunOptions counted = options;
+    counted.partition.parts = static_cast<int>(cut.part_share.size());  // --parts auto has found it
+    return {{std::move(counted), std::move(collection), std::move(kept), std::move(optimisation),
+             std::move(cut), std::move(examples)},
             std::move(ranges),
             std::move(model),
             std::move(alignment)};
@@ -104,6 +106,8 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     auto [base, ranges, model, alignment] =
         partitioned(comm, entries, options, folders, checkpoints, corrections.is_given, log);
     auto& [base_options, collection, features, optimisation, cut, examples] = base;
+    options.partition.parts = base_options.partition.parts;
+    values = with_part_number(std::move(values), options.partition.parts);
 
     // What a person says of the parts, and how the others follow.
     if (corrections.is_given) {

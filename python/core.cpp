@@ -324,6 +324,7 @@ void add_arguments(py::module_& module) {
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
+    module.attr("automatic_parts") = coseg::automatic_parts;
     module.doc() = "The interface of coseg for C++; see the package coseg for what is meant for users.";
     // Failure(code, sentence): the Python side makes it its own exception.
     static const py::exception<coseg::Failure> failure(module, "Failure");

@@ -183,8 +183,11 @@ struct Segmentation {
     Alignment alignment;                 ///< of segment() alone; without shapes otherwise
 };
 
+/// As SegmentOptions::parts: 2 to 12, found from the shapes, as by --parts auto.
+inline constexpr int automatic_parts = -1;
+
 struct SegmentOptions {
-    int parts = 0;                ///< K, 1 .. 1000
+    int parts = 0;                ///< K, 1 .. 1000, or automatic_parts
     std::vector<Option> options;  ///< see option_names()
     bool strict = true;           ///< a shape that cannot be used ends the call; otherwise it is set aside
     bool keep_model = true;

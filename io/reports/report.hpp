@@ -14,6 +14,7 @@
 #include "src/records/mesh_facts.hpp"
 #include "src/records/named_range.hpp"
 #include "src/records/optimisation_facts.hpp"
+#include "src/records/part_count.hpp"
 #include "src/records/part_tree.hpp"
 #include "src/records/solve_summary.hpp"
 #include "src/records/stage_times.hpp"
@@ -63,19 +64,33 @@ struct ReportPlaces {
     }
 };
 
+/// How the number of parts was found.
+struct ReportPartCount {
+    std::string sentence;                   ///< what was taken, what came next, and why
+    bool clear = false;                     ///< whether one number is better than all others
+    std::vector<PartCountFigures> numbers;  ///< by falling merit
+    static constexpr auto fields() {
+        return std::tuple(field("sentence", &ReportPartCount::sentence),
+                          field("clear", &ReportPartCount::clear),
+                          field("numbers", &ReportPartCount::numbers));
+    }
+};
+
 struct ReportPartition {
     std::vector<double> eigenvalues;  ///< of the chosen start's graph
     std::vector<StartOutcome> starts;
     int chosen_start = 0;
     ReportPlaces places;
-    std::vector<double> part_area;   ///< mean over shapes of each part's share of the area
+    std::vector<double> part_area;              ///< mean over shapes of each part's share of the area
+    std::optional<ReportPartCount> part_count;  ///< of --parts auto
     std::vector<PieceUnion> unions;  ///< of the tree of parts, from the finest level; none without one
     AffinityPicture affinity;
     static constexpr auto fields() {
         return std::tuple(
             field("eigenvalues", &ReportPartition::eigenvalues), field("starts", &ReportPartition::starts),
             field("chosen_start", &ReportPartition::chosen_start), field("places", &ReportPartition::places),
-            field("part_area", &ReportPartition::part_area), field("unions", &ReportPartition::unions),
+            field("part_area", &ReportPartition::part_area),
+            field("part_count", &ReportPartition::part_count), field("unions", &ReportPartition::unions),
             field("affinity", &ReportPartition::affinity));
     }
 };

@@ -112,9 +112,9 @@ void add_solution(Segmentation& result, const SolveResult& solution, double gap)
 
 RunOptions run_options(const SegmentOptions& given) {
     RunOptions options = options_by_name(given.options);
-    if (given.parts < 1 || given.parts > 1000)
+    if (given.parts != automatic_parts && (given.parts < 1 || given.parts > 1000))
         throw Error(ExitCode::usage, "parts: " + std::to_string(given.parts) + " is not in 1 .. 1000");
-    options.partition.parts = given.parts;
+    options.partition.parts = given.parts == automatic_parts ? found_parts : given.parts;
     options.output.keep_model = given.keep_model;
     options.output.folder = given.folder;
     options.output.force = given.replace;

@@ -46,6 +46,15 @@ const CLI::Validator links_text(
     },
     "auto|all|NUMBER");
 
+const std::string auto_word = "auto";
+
+const CLI::Validator part_number(
+    [](std::string& text) {
+        const bool is_fine = text == auto_word || CLI::Range(1, 1000)(text).empty();
+        return is_fine ? std::string() : text + " is neither auto nor a number from 1 to 1000";
+    },
+    "auto|NUMBER");
+
 const CLI::Validator view_name(
     [](std::string& text) {
         const bool is_known = text == widest_view || named_view(text, UpAxis::y).has_value();
@@ -189,12 +198,27 @@ void RunOptionTable::add_picture() {
         options_.partition.align);
 }
 
+void RunOptionTable::add_parts() {
+    int& parts = options_.partition.parts;
+    const Row row{
+        "parts", Affects::cut, in_out_group,
+        "Number of parts K that the shapes are cut into, 1 to 1000, or auto: 2 to 12, found from the "
+        "shapes; required but with --examples, which say it"};
+    remember(row, [&parts] { return parts == found_parts ? auto_word : std::to_string(parts); });
+    const auto take = [&parts](const std::string& text) {
+        if (text == auto_word)
+            parts = found_parts;
+        else
+            CLI::detail::lexical_cast(text, parts);
+    };
+    app_.add_option_function<std::string>("--" + row.key, take, row.help)
+        ->check(part_number)
+        ->group(row.group);
+}
+
 void RunOptionTable::add_results() {
     OutputOptions& output = options_.output;
-    add({"parts", Affects::cut, in_out_group,
-         "Number of parts K that the shapes are cut into; required but with --examples, which say it"},
-        options_.partition.parts)
-        ->check(CLI::Range(1, 1000));
+    add_parts();
     // Where the labels are has no effect; they themselves are part of what a cut is found by.
     add({"examples", Affects::nothing, in_out_group,
          "Folder with labels of yours for one shape or more, NAME.seg with a number a face (0, 1, ..., or -1 "

@@ -37,6 +37,7 @@ class RunOptionTable {
     void add_input_and_output(OptionSet set);
     void add_preset();
     void add_seed();
+    void add_parts();
     void add_results();
     void add_state(OptionSet set);
     void add_picture();

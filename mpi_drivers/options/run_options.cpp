@@ -100,6 +100,12 @@ void refuse_contradictions(const RunOptions& options) {
             ExitCode::usage,
             "--levels needs two parts or more, and cannot be joined with --no-choose, --subsets, "
             "--segments or --partition diffusion");
+    if (partition.parts == found_parts && (partition.subsets > 0 || partition.segments || !partition.choose ||
+                                           partition.method == PartitionMethod::diffusion))
+        throw AgreedError(ExitCode::usage,
+                          "--parts auto compares partitions by their scores, and cannot be joined with "
+                          "--no-choose (which --preset paper sets), --subsets, --segments or --partition "
+                          "diffusion; give --parts a number");
     // An offset, as the paper's code adds one to the affinity, leaves the balance without a meaning.
     if (options.partition.cut_offset > 0.0 && options.partition.mesh_balance > 0.0)
         throw AgreedError(ExitCode::usage,

@@ -141,10 +141,13 @@ constexpr std::array<EnumName<AlignMode>, 2> enum_names(AlignMode /*type*/) {
     return {{{AlignMode::automatic, "auto"}, {AlignMode::off, "off"}}};
 }
 
+/// PartitionOptions::parts where the shapes say how many parts there are.
+inline constexpr int found_parts = -1;
+
 /// Options of the stage that finds the part of every patch from coefficients.
 struct PartitionOptions {
     std::uint64_t seed = 1;   ///< of subsets, and of the diffusion map's clusters
-    int parts = 0;            ///< K; 0: as many as the examples have labels
+    int parts = 0;            ///< K; 0: as many as the examples have labels; or found_parts
     std::string examples;     ///< folder of the labels that the user gives for some shapes; "": none
     std::string corrections;  ///< file of what a person says of the partition; "": none
     std::string constraints;  ///< file of links and absent parts alone; "": none

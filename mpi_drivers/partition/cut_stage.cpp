@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "solvers/partition/part_count.hpp"
 #include "solvers/spectral/diffusion_clusters.hpp"
+#include "src/base/error.hpp"
 
 namespace coseg {
 
@@ -61,6 +63,15 @@ std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features,
     return descriptors;
 }
 
+/// The number of parts that is taken.
+int part_number(const CountedParts& counted) {
+    if (counted.figures.empty())
+        throw AgreedError(ExitCode::input,
+                          "--parts auto: there are too few patches to tell how many parts there are; give "
+                          "--parts a number");
+    return counted.figures.front().parts;
+}
+
 }  // namespace
 
 PartitionInput partition_input(const Collection& collection, PatchFeatures features,
@@ -107,10 +118,20 @@ CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const Pa
     }
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(input.collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(input.collection);
-    return partition_patches(comm,
-                             {input.coefficients, neighbors, overlaps, mesh_of, input.patch_area,
-                              input.choice, input.known_positions(), input.examples, &input.histograms},
-                             cut_options(input.positions, options));
+    const CutInput cut{
+        input.coefficients,      neighbors,      overlaps,         mesh_of, input.patch_area, input.choice,
+        input.known_positions(), input.examples, &input.histograms};
+    if (options.parts != found_parts && !options.levels)
+        return partition_patches(comm, cut, cut_options(input.positions, options));
+    PartitionOptions known = options;
+    if (options.parts == found_parts) known.parts = least_part_count;
+    CountedParts counted = count_parts(comm, cut, cut_options(input.positions, known));
+    if (options.parts == found_parts) known.parts = part_number(counted);
+    CutOptions guided = cut_options(input.positions, known);
+    guided.guides = std::move(counted.partitions);
+    CutResult result = partition_patches(comm, cut, guided);
+    if (options.parts == found_parts) result.part_counts = std::move(counted.figures);
+    return result;
 }
 
 }  // namespace coseg

@@ -43,8 +43,9 @@ PartitionInput partition_input(const Collection& collection, PatchFeatures featu
 /// What a cut of these patches is made with. positions: as in PartitionInput.
 CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions& options);
 
-/// Cuts the patches into K parts. K must not exceed the number of patches. Collective. Throws
-/// AgreedError(not_converged).
+/// Cuts the patches into K parts, or with found_parts into as many as count_parts() puts first. K must not
+/// exceed the number of patches. Collective. Throws AgreedError: not_converged; input where there are too few
+/// patches to find K.
 CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const PartitionOptions& options);
 
 }  // namespace coseg

@@ -118,7 +118,7 @@ RunOptions with_parts_of_examples(const Comm& comm, const RunOptions& options) {
         if (comm.is_root()) labels = labels_in(partition.examples);
     });
     broadcast(comm, labels);
-    if (partition.parts == 0) partition.parts = labels;
+    if (partition.parts == 0 || partition.parts == found_parts) partition.parts = labels;
     if (labels > partition.parts)
         throw AgreedError(ExitCode::input, "--examples " + partition.examples + ": there is a label " +
                                                std::to_string(labels - 1) + ", which needs --parts " +

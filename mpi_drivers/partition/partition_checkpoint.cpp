@@ -18,7 +18,7 @@ namespace coseg {
 namespace {
 
 constexpr const char* cut_format = "coseg cut";
-constexpr int cut_version = 6;
+constexpr int cut_version = 7;
 
 /// Tile by tile, as columns are owned.
 ContentHash hash_of_coefficients(const Comm& comm, const SparseCoefficients& w) {
@@ -82,6 +82,15 @@ ContentHash cut_key(const Comm& comm, const PartitionInput& input, const std::st
     return hasher.result();
 }
 
+/// The text of options as it would be if the number of parts had been given.
+std::string with_given_parts(std::string options, int parts) {
+    const std::string counted = "parts=auto\n";
+    const std::size_t place = options.find(counted);
+    if (place != std::string::npos)
+        options.replace(place, counted.size(), "parts=" + std::to_string(parts) + "\n");
+    return options;
+}
+
 }  // namespace
 
 std::string cut_option_text(const std::vector<OptionValue>& options,
@@ -133,12 +142,22 @@ CutResult PartitionCheckpoint::cut(const PartitionInput& input, const PartitionO
         warnings_.push_back(damage.front() + "; it is set aside as " + aside + " and the cut is made anew");
     state_.end_if_asked(comm_, "all meshes and the optimiser's tiles");
     CutResult cut = cut_into_parts(comm_, input, options);
+    keep(file, cut);
+    if (!cut.part_counts.empty()) {
+        CutResult given = cut;
+        given.part_counts.clear();
+        const std::string with_number = with_given_parts(options_, static_cast<int>(cut.part_share.size()));
+        keep(state_.folder().cut_file(cut_key(comm_, input, with_number)), given);
+    }
+    return cut;
+}
+
+void PartitionCheckpoint::keep(const std::string& file, const CutResult& cut) const {
     agree(comm_, [&] {
         if (!comm_.is_root()) return;
         make_parent_folders(file);
         write_cut(file, cut);
     });
-    return cut;
 }
 
 CutResult cut_or_found(const Comm& comm, const PartitionInput& input, const PartitionOptions& options,

@@ -23,7 +23,8 @@ class PartitionCheckpoint {
     PartitionCheckpoint(const Comm& comm, const RunState& state, std::string options)
         : comm_(comm), state_(state), options_(std::move(options)) {}
 
-    /// Does what cut_into_parts does, or takes the outcome from the folder if it is there. Collective; throws
+    /// Does what cut_into_parts does, or takes the outcome from the folder if it is there. With --parts auto
+    /// the outcome is kept for the number of parts that was found as well. Collective; throws
     /// what cut_into_parts does, AgreedError(output) if the outcome cannot be written,
     /// AgreedError(checkpointed) if a rank has been asked to end before the cut.
     CutResult cut(const PartitionInput& input, const PartitionOptions& options);
@@ -33,6 +34,9 @@ class PartitionCheckpoint {
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
   private:
+    /// Collective.
+    void keep(const std::string& file, const CutResult& cut) const;
+
     const Comm& comm_;
     const RunState& state_;
     std::string options_;

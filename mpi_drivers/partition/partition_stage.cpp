@@ -8,6 +8,7 @@
 #include "mpi_drivers/partition/segment_stage.hpp"
 #include "mpi_drivers/partition/subset_stage.hpp"
 #include "solvers/alignment/shape_alignment.hpp"
+#include "solvers/partition/part_count.hpp"
 #include "solvers/partition/part_shares.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -49,8 +50,7 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     log.begin("optimise");
     Optimisation optimisation = optimise(comm, collection, features, task.optimise, task.tiles, &log);
     log.end(describe(optimisation));
-    const int parts = task.partition.parts;
-    if (parts > 1) refuse_empty_solution(optimisation.result, "the collection");
+    if (task.partition.parts != 1) refuse_empty_solution(optimisation.result, "the collection");
     ShapeAlignment alignment =
         alignment_stage(comm, collection, features, optimisation.result.coefficients, task.partition, log);
     features.positions = turned_positions(alignment, features.positions, collection.numbering.mesh_of());
@@ -58,8 +58,11 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
         collection, std::move(features), optimisation.result.coefficients, task.partition, task.examples);
     log.begin("cut");
     CutResult cut = cut_or_found(comm, input, task.partition, task.cuts);
+    const auto parts = static_cast<int>(cut.part_share.size());
+    const std::string counted =
+        cut.part_counts.empty() ? std::string() : "; auto: " + part_count_sentence(cut.part_counts);
     log.end(with_unit(static_cast<std::int64_t>(cut.starts.size()), "start", "starts") + ", " +
-            std::to_string(parts) + " parts");
+            std::to_string(parts) + " parts" + counted);
     warn_of_degenerate_parts(cut, parts, static_cast<int>(collection.meshes.size()), log);
     return {std::move(optimisation), std::move(cut), std::move(alignment)};
 }

@@ -10,6 +10,7 @@
 #include "io/reports/report.hpp"
 #include "mpi_drivers/process/version.hpp"
 #include "solvers/affinity/affinity_picture.hpp"
+#include "solvers/partition/part_count.hpp"
 #include "solvers/subspace/feature_strength.hpp"
 #include "src/base/index.hpp"
 #include "src/base/text.hpp"
@@ -121,6 +122,9 @@ ReportPartition report_partition(const CutResult& cut, const Eigen::MatrixXd& pa
     report.chosen_start = cut.chosen;
     report.places = {cut.frame.directions.colwise().normalized(), cut.frame.correlation};
     report.part_area = to_vector(part_areas.rowwise().mean());
+    if (!cut.part_counts.empty())
+        report.part_count = {part_count_sentence(cut.part_counts), is_clear(cut.part_counts),
+                             cut.part_counts};
     report.unions = cut.tree.unions;
     return report;
 }

@@ -150,6 +150,10 @@ def _whole_number(what: str, value: Any) -> int:
 
 
 def _number_of_parts(value: Any) -> int:
+    if isinstance(value, str):
+        if value != "auto":
+            raise UsageError(f"parts: {value!r} is neither a whole number nor 'auto'")
+        return _core.automatic_parts
     parts = _whole_number("parts", value)
     if not 1 <= parts <= 1000:
         raise UsageError(f"parts: {parts} is not in 1 .. 1000")
@@ -171,7 +175,7 @@ def _arguments(strict: bool, out: Any, replace: bool, state: Any) -> Any:
     return arguments
 
 
-def segment(meshes: MeshesLike, parts: int, *, names: Optional[Sequence[str]] = None, out: Any = None,
+def segment(meshes: MeshesLike, parts: Union[int, str], *, names: Optional[Sequence[str]] = None, out: Any = None,
             replace: bool = False, state: Any = None, strict: bool = True, keep_model: bool = True,
             comm: Any = None, progress: Optional[Progress] = None, **options: Any) -> Result:
     """Cuts all shapes of a collection into the same parts.
@@ -180,7 +184,7 @@ def segment(meshes: MeshesLike, parts: int, *, names: Optional[Sequence[str]] = 
         meshes: a list whose elements are paths or (vertices, faces): vertices (V, 3) numbers in any unit,
             faces (F, k) vertex numbers from 0, or F sequences of them. Or a folder of mesh files. Two shapes
             are the least that make sense; four or more are better.
-        parts: K, 1 .. 1000.
+        parts: K, 1 .. 1000, or "auto": 2 to 12, found from the shapes.
         names: of the shapes, unique and without '/'. The randomness of a shape is drawn by its name, so that
             shapes of the same names have the same labels as `coseg run` gives them. Without: the names of the
             files, and "shape_0007" for arrays.

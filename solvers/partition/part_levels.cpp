@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {
@@ -23,7 +24,6 @@ class Groups {
 
     [[nodiscard]] int count() const { return sums_.count(); }
     [[nodiscard]] const std::vector<int>& group_of_cluster() const { return group_of_; }
-    [[nodiscard]] int part(int group) const { return part_[at(group)]; }
     [[nodiscard]] double area(int group) const { return sums_.area.row(group).sum(); }
 
     /// Every group becomes its own leader.
@@ -35,21 +35,42 @@ class Groups {
         for (int a = 0; a < count(); ++a) {
             for (int b = a + 1; b < count(); ++b) {
                 if (inside && part_[at(a)] != part_[at(b)]) continue;
-                const double loss = value_of_part(sums_, std::array{a}) +
-                                    value_of_part(sums_, std::array{b}) -
-                                    value_of_part(sums_, std::array{a, b});
-                if (loss < best.loss) best = {a, b, loss};
+                const double lost = loss(a, b);
+                if (lost < best.loss) best = {a, b, lost};
             }
         }
-        const int a = best.kept;
-        const int b = best.taken;
-        best.kept = std::min(lead_[at(a)], lead_[at(b)]);
-        best.taken = std::max(lead_[at(a)], lead_[at(b)]);
-        join(a, b, best.kept);
-        return best;
+        return unite_groups(best);
+    }
+
+    /// Unites the two groups whose clusters have the same label.
+    PieceUnion unite_same(const std::vector<int>& label_of_cluster) {
+        std::vector<int> group_of_label(group_of_.size(), -1);
+        for (std::size_t c = 0; c < group_of_.size(); ++c) {
+            int& known = group_of_label[at(label_of_cluster[c])];
+            const int a = std::min(known, group_of_[c]);
+            const int b = std::max(known, group_of_[c]);
+            if (known >= 0 && a != b) return unite_groups({a, b, loss(a, b)});
+            known = group_of_[c];
+        }
+        throw Error(ExitCode::internal, "levels of parts are not nested");
     }
 
   private:
+    [[nodiscard]] double loss(int a, int b) const {
+        return value_of_part(sums_, std::array{a}) + value_of_part(sums_, std::array{b}) -
+               value_of_part(sums_, std::array{a, b});
+    }
+
+    /// The union of two groups, which it then names by the pieces that lead them.
+    PieceUnion unite_groups(PieceUnion both) {
+        const int a = both.kept;
+        const int b = both.taken;
+        both.kept = std::min(lead_[at(a)], lead_[at(b)]);
+        both.taken = std::max(lead_[at(a)], lead_[at(b)]);
+        join(a, b, both.kept);
+        return both;
+    }
+
     void join(int a, int b, int lead) {
         const int last = count() - 1;
         unite(sums_, a, b);
@@ -67,18 +88,26 @@ class Groups {
     std::vector<int> lead_;      ///< of each group
 };
 
+/// The part of each group.
+std::vector<int> parts_of_groups(const Groups& groups, const std::vector<int>& part_of_cluster) {
+    std::vector<int> part(at(groups.count()));
+    for (std::size_t c = 0; c < part_of_cluster.size(); ++c)
+        part[at(groups.group_of_cluster()[c])] = part_of_cluster[c];
+    return part;
+}
+
 /// A number for each group: in each part the largest one has that of the part, and the others follow in any
 /// order.
-std::vector<int> provisional_numbers(const Groups& groups, int parts) {
+std::vector<int> provisional_numbers(const Groups& groups, const std::vector<int>& part_of_group, int parts) {
     std::vector<int> largest(at(parts), -1);
     for (int g = 0; g < groups.count(); ++g) {
-        int& best = largest[at(groups.part(g))];
+        int& best = largest[at(part_of_group[at(g)])];
         if (best < 0 || groups.area(g) > groups.area(best)) best = g;
     }
     std::vector<int> number(at(groups.count()));
     int next = parts;
     for (int g = 0; g < groups.count(); ++g)
-        number[at(g)] = largest[at(groups.part(g))] == g ? groups.part(g) : next++;
+        number[at(g)] = largest[at(part_of_group[at(g)])] == g ? part_of_group[at(g)] : next++;
     return number;
 }
 
@@ -94,16 +123,24 @@ std::vector<int> final_numbers(const std::vector<PieceUnion>& unions, int pieces
 
 }  // namespace
 
-PartTree part_tree(ClusterSums clusters, const std::vector<int>& part_of_cluster, int finest) {
+PartTree part_tree(ClusterSums clusters, const std::vector<int>& part_of_cluster, int finest,
+                   const PartitionsByNumber& levels) {
     PartTree tree;
     const int parts = 1 + *std::max_element(part_of_cluster.begin(), part_of_cluster.end());
-    Groups groups(std::move(clusters), part_of_cluster);
-    while (groups.count() > std::max(finest, parts)) groups.unite_best(true);
+    const std::vector<int>& inside = levels.empty() ? part_of_cluster : levels.back();
+    const int known = levels.empty() ? parts : static_cast<int>(levels.size()) + 1;
+    Groups groups(std::move(clusters), inside);
+    while (groups.count() > std::max(finest, known)) groups.unite_best(true);
     const int pieces = groups.count();
-    const std::vector<int> provisional = provisional_numbers(groups, parts);
+    const std::vector<int> provisional =
+        provisional_numbers(groups, parts_of_groups(groups, part_of_cluster), parts);
     for (const int group : groups.group_of_cluster()) tree.piece_of_patch.push_back(provisional[at(group)]);
     groups.name_leaders(provisional);
-    while (groups.count() > 2) tree.unions.push_back(groups.unite_best(groups.count() > parts));
+    while (groups.count() > known) tree.unions.push_back(groups.unite_best(true));
+    while (groups.count() > 2) {
+        tree.unions.push_back(levels.empty() ? groups.unite_best(false)
+                                             : groups.unite_same(levels[at(groups.count() - 3)]));
+    }
     const std::vector<int> number = final_numbers(tree.unions, pieces, parts);
     for (int& piece : tree.piece_of_patch) piece = number[at(piece)];
     for (PieceUnion& u : tree.unions) u = {number[at(u.kept)], number[at(u.taken)], u.loss};

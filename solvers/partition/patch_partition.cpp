@@ -135,18 +135,32 @@ bool has_all_parts(const CutResult& result) {
                         [](double share) { return share <= 0.0; });
 }
 
-/// The tree over the pieces in which parts and clusters of patches divide each other.
+/// The labels of pieces that have the labels of their patches.
+std::vector<int> labels_of_pieces(const std::vector<int>& piece_of_patch, int pieces,
+                                  const std::vector<int>& label_of_patch) {
+    std::vector<int> labels(at(pieces), 0);
+    for (std::size_t i = 0; i < piece_of_patch.size(); ++i) labels[at(piece_of_patch[i])] = label_of_patch[i];
+    return labels;
+}
+
+/// The tree over the pieces in which clusters of patches and the parts of the finest known level divide each
+/// other.
 PartTree tree_of(const PartitionEvidence& evidence, const CutOptions& options,
                  const std::vector<int>& part_of_patch, const std::vector<int>& cluster_of_patch) {
+    PartitionsByNumber levels =
+        nested_levels(part_of_patch, options.parts, options.guides, evidence.patch_area);
+    const std::vector<int>& finest_known = levels.empty() ? part_of_patch : levels.back();
+    const int known = 1 + *std::max_element(finest_known.begin(), finest_known.end());
     std::vector<int> pieces;
     for (std::size_t i = 0; i < part_of_patch.size(); ++i)
-        pieces.push_back(cluster_of_patch[i] * options.parts + part_of_patch[i]);
+        pieces.push_back(cluster_of_patch[i] * known + finest_known[i]);
     pieces = renumbered(pieces);
     const int count = 1 + *std::max_element(pieces.begin(), pieces.end());
-    std::vector<int> part_of_piece(at(count), 0);
-    for (std::size_t i = 0; i < pieces.size(); ++i) part_of_piece[at(pieces[i])] = part_of_patch[i];
+    const std::vector<int> part_of_piece = labels_of_pieces(pieces, count, part_of_patch);
+    for (std::vector<int>& level : levels) level = labels_of_pieces(pieces, count, level);
     const PartitionObjective objective = partition_objective(evidence, options.choice);
-    PartTree tree = part_tree(cluster_sums(objective, pieces, count), part_of_piece, options.finest_level);
+    PartTree tree =
+        part_tree(cluster_sums(objective, pieces, count), part_of_piece, options.finest_level, levels);
     for (int& piece : pieces) piece = tree.piece_of_patch[at(piece)];
     tree.piece_of_patch = std::move(pieces);
     return tree;

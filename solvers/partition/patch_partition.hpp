@@ -10,6 +10,7 @@
 #include "solvers/affinity/position_correlation.hpp"
 #include "solvers/partition/cut_graphs.hpp"
 #include "solvers/partition/labelled_parts.hpp"
+#include "solvers/partition/nested_levels.hpp"
 #include "solvers/partition/partition_terms.hpp"
 #include "solvers/spectral/spectral_embedding.hpp"
 #include "solvers/subspace/coefficients.hpp"
@@ -53,6 +54,7 @@ struct CutOptions {
     SpectralOptions spectral;      ///< the paper's code has offset 0.5
     std::vector<CutStart> starts;  ///< at least one
     int finest_level = 0;          ///< parts of the finest level of CutResult::tree; 0: no tree is made
+    PartitionsByNumber guides;     ///< that the levels of the tree should agree with; may be empty
     ChoiceWeights choice;
     ExampleWeights examples;
     /// Up to this number of entries of the base affinity, a start is the work of one rank, which takes about

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "src/records/part_count.hpp"
 #include "src/records/part_tree.hpp"
 #include "src/records/position_frame.hpp"
 #include "src/records/start_outcome.hpp"
@@ -22,7 +23,9 @@ struct CutResult {
     /// K x N: how well each part suits each patch (solvers/partition/part_scores.hpp); empty where the
     /// partition was not chosen from several starts.
     Eigen::MatrixXf scores;
-    PartTree tree;                     ///< empty unless levels were asked for
+    PartTree tree;  ///< empty unless levels were asked for
+    std::vector<PartCountFigures>
+        part_counts;                   ///< by falling merit; empty where the number of parts was given
     std::vector<StartOutcome> starts;  ///< in the order in which they were asked for
     /// of the chosen start's graph, descending, one for each of its clusters.
     std::vector<double> eigenvalues;
@@ -33,6 +36,7 @@ struct CutResult {
                           field("confidence", &CutResult::confidence, Storage::compressed),
                           field("scores", &CutResult::scores, Storage::compressed),
                           field("part_share", &CutResult::part_share), field("tree", &CutResult::tree),
+                          field("part_counts", &CutResult::part_counts),
                           field("meshes_with_part", &CutResult::meshes_with_part),
                           field("starts", &CutResult::starts), field("eigenvalues", &CutResult::eigenvalues),
                           field("positions", &CutResult::frame), field("chosen", &CutResult::chosen));

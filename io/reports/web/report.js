@@ -12,6 +12,8 @@
     element("subtitle").textContent = shapes.length + (shapes.length === 1 ? " shape, " : " shapes, ") + partCount +
       (partCount === 1 ? " part, " : " parts, ") + report.ranks + (report.ranks === 1 ? " rank" : " ranks") +
       ", coseg " + report.versions.coseg;
+    const counted = report.partition.part_count;
+    if (counted) element("counted").textContent = "Number of parts found: " + counted.sentence + ".";
     const solved = report.optimisation;
     const warnings = shapes.reduce((sum, shape) => sum + shape.warnings.length, 0);
     const facts = [["seconds", report.seconds.toFixed(1)], ["faces", shapes.reduce((sum, s) => sum + s.faces, 0).toLocaleString("en")],

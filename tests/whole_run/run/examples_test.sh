@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # --examples: the labels of one shape become those of all, and what is wrong with an example is said in a sentence.
-# --levels: one nested tree of parts.
+# --levels: one nested tree of parts. --parts auto: the number of parts is found, the rest is as if it had been given.
 set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
@@ -86,6 +86,35 @@ diff -r "$work/levels/levels" "$work/levels2/levels" || fail "levels on 1 and on
 "${run[@]}" --parts 2 --force --out "$work/levels2" "$work/set/meshes"
 [[ ! -e $work/levels2/levels ]] || fail "levels of an earlier run are left"
 
+# --parts auto: the labels are those of the number that was found, which the report and the log explain.
+"$COSEG" run --no-html --no-sheet --patches 20 --geodesic-samples 100 --parts auto --levels --out "$work/auto" \
+    "$work/set/meshes" >"$work/auto.log" 2>&1
+found=$(python3 - "$work/auto" <<'END'
+import json, sys
+report = json.load(open(sys.argv[1] + "/report.json"))
+count = report["partition"]["part_count"]
+numbers = [row["parts"] for row in count["numbers"]]
+merits = [row["merit"] for row in count["numbers"]]
+assert sorted(numbers) == list(range(2, 13)) and merits == sorted(merits, reverse=True), count
+assert numbers[0] == report["options"]["parts"] == len(report["partition"]["part_area"]), numbers
+assert count["sentence"] in open(sys.argv[1] + ".log").read()
+print(numbers[0])
+END
+) || fail "what the report and the log say of the number of parts"
+[[ $found == 2 ]] || fail "tables have $found parts"
+diff -r "$work/levels/labels" "$work/auto/labels" || fail "labels of a number that was found and of one that was given"
+diff -r "$work/levels/levels" "$work/auto/levels" || fail "levels of a number that was found and of one that was given"
+ranks 2 "${run[@]}" --parts auto --out "$work/auto2" "$work/set/meshes"
+diff -r "$work/auto/labels" "$work/auto2/labels" || fail "--parts auto on 1 and on 2 ranks"
+diff <(grep -A3 '"numbers"' "$work/auto/report.json") <(grep -A3 '"numbers"' "$work/auto2/report.json") ||
+    fail "figures of the numbers of parts on 1 and on 2 ranks"
+for parts in auto "$found"; do
+    "${run[@]}" --parts "$parts" --force --out "$work/auto3" "$work/set/meshes"
+    grep -q '"cuts_reused": 1' "$work/auto3/report.json" || fail "the cut of --parts auto is not kept for $parts"
+done
+"${run[@]}" --examples "$work/one" --parts auto --out "$work/auto_by_one" "$work/set/meshes"
+diff -r "$work/by_one/labels" "$work/auto_by_one/labels" || fail "with examples the number of parts is that of their labels"
+
 # What is wrong: the code, and a part of the sentence.
 refused() {
     local code=$1 sentence=$2
@@ -101,6 +130,8 @@ refused 3 "no label file NAME.seg" --examples "$work/none"
 refused 3 "No such file or directory" --examples "$work/nowhere"
 refused 2 "--examples cannot be joined" --examples "$work/one" --parts 2 --segments
 refused 2 "--levels needs two parts" --parts 1 --levels
+refused 2 "--parts auto compares partitions" --parts auto --preset paper
+refused 2 "--parts auto compares partitions" --parts auto --segments
 refused 3 "which needs --parts 2 or more" --examples "$work/one" --parts 1
 head -n 10 "$work/one/table_0002.seg" >"$work/bad/table_0002.seg"
 refused 3 "table_0002.seg" --examples "$work/bad"

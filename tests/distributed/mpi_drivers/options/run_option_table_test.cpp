@@ -35,6 +35,23 @@ std::map<std::string, OptionValue> by_key(const RunOptions& options) {
     return values;
 }
 
+TEST(RunOptionTable, TakesANumberOfPartsOrFindsIt) {
+    CLI::App app;
+    RunOptions options;
+    const RunOptionTable table(app, options);
+    const auto parse = [&](const std::string& parts) {
+        app.parse(std::vector<std::string>{"m", "--out=x", parts});
+    };
+    parse("--parts=auto");
+    EXPECT_EQ(options.partition.parts, found_parts);
+    EXPECT_EQ(by_key(options)["parts"].value, "auto");
+    parse("--parts=12");
+    EXPECT_EQ(options.partition.parts, 12);
+    EXPECT_EQ(by_key(options)["parts"].value, "12");
+    for (const char* bad : {"--parts=0", "--parts=1001", "--parts=-1", "--parts=3.5", "--parts=Auto"})
+        EXPECT_THROW(parse(bad), CLI::ParseError) << bad;
+}
+
 /// Another value of every option of the table but --config and --preset, as it stands on the command line.
 const std::map<std::string, std::vector<std::string>> changes = {
     {"parts", {"--parts=4"}},

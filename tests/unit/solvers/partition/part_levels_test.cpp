@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "src/base/index.hpp"
+
 namespace coseg {
 namespace {
 
@@ -44,6 +46,26 @@ TEST(PartTree, LevelsAreNestedAndThatOfThePartsIsThePartsThemselves) {
     EXPECT_EQ(labels_at_level(made, 4), (std::vector<int>{0, 1, 2, 3, 1, 0}));
     EXPECT_EQ(labels_at_level(made, 3), (std::vector<int>{0, 1, 2, 0, 1, 0}));
     EXPECT_EQ(labels_at_level(made, 2), (std::vector<int>{0, 0, 1, 0, 0, 0})) << "numbers close ranks";
+}
+
+TEST(PartTree, FollowsTheLevelsThatAreGivenWhateverTheUnionsLose) {
+    Eigen::MatrixXd ties = Eigen::MatrixXd::Zero(4, 4);
+    ties(0, 1) = ties(1, 0) = 5.0;
+    ties(2, 3) = ties(3, 2) = 7.0;
+    // Part 0 is {0, 1, 2}, from which the finer level cuts 1 out. Of its two halves {0, 2} is the larger.
+    const PartitionsByNumber levels = {{0, 0, 0, 1}, {0, 2, 0, 1}};
+    const PartTree made =
+        part_tree(tied_clusters(ties, Eigen::Vector4d(1, 1, 1, 1)), {0, 0, 0, 1}, 4, levels);
+    ASSERT_EQ(made.finest(), 4);
+    const auto same_at = [&](int count, int a, int b) {
+        const std::vector<int> label = labels_at_level(made, count);
+        return label[at(made.piece_of_patch[at(a)])] == label[at(made.piece_of_patch[at(b)])];
+    };
+    EXPECT_TRUE(same_at(3, 0, 2));
+    EXPECT_FALSE(same_at(3, 0, 1)) << "although they are tied";
+    EXPECT_TRUE(same_at(2, 0, 1));
+    EXPECT_FALSE(same_at(2, 2, 3)) << "the level of the parts is the parts";
+    EXPECT_EQ(made.unions.back().loss, -10.0) << "what the union of {0, 2} and {1} gains by its tie";
 }
 
 TEST(PartTree, StartsFromTheFinestLevelThatIsAskedFor) {
