@@ -30,8 +30,8 @@ struct CountedParts {
 ///     score + worth_of_agreement * agreement - price_of_part * parts.
 /// Every graph of options.starts is cut into 8, 14 and 24 clusters, which are merged into each number of
 /// parts up to two thirds of theirs; the best partitions of two graphs are improved by moves of single
-/// patches. options.parts is not looked at, nor are examples. Empty where there are too few patches for 2 parts. The
-/// same bytes on any number of ranks. Collective. Throws as partition_patches.
+/// patches. options.parts is not looked at, nor are examples. Empty where there are too few patches for 2
+/// parts. The same bytes on any number of ranks. Collective. Throws as partition_patches.
 CountedParts count_parts(const Comm& comm, const CutInput& input, CutOptions options);
 
 /// Whether the first one is better than the second by more than the price of a part.
