@@ -58,8 +58,9 @@ void erase_other_extensions(CompactJson& object, const std::vector<std::string_v
     if (!object.contains("extensions")) return;
     CompactJson kept = CompactJson::object();
     for (auto& [name, value] : object["extensions"].items()) {
-        const bool is_kept = std::any_of(begins.begin(), begins.end(),
-                                         [&](std::string_view begin) { return name.starts_with(begin); });
+        const bool is_kept = std::any_of(begins.begin(), begins.end(), [&key = name](std::string_view begin) {
+            return key.starts_with(begin);
+        });
         if (is_kept) kept[name] = value;
     }
     object.erase("extensions");
