@@ -84,24 +84,23 @@ void refuse_contradictions(const RunOptions& options) {
         throw AgreedError(ExitCode::usage,
                           "--feature-weights: all are zero; give at least one that is positive");
     const PartitionOptions& partition = options.partition;
-    if (!partition.examples.empty() &&
-        (partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion))
+    const bool is_cut_otherwise =
+        partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion;
+    const bool is_chosen = partition.choose && !is_cut_otherwise;
+    if (!partition.examples.empty() && is_cut_otherwise)
         throw AgreedError(ExitCode::usage,
                           "--examples cannot be joined with --subsets, --segments or --partition diffusion");
     if ((!partition.corrections.empty() || !partition.constraints.empty()) &&
-        (partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion ||
-         partition.parts == 1))
+        (is_cut_otherwise || partition.parts == 1))
         throw AgreedError(ExitCode::usage,
                           "--corrections and --constraints need two parts or more, and cannot be joined with "
                           "--subsets, --segments or --partition diffusion");
-    if (partition.levels && (partition.subsets > 0 || partition.segments || !partition.choose ||
-                             partition.method == PartitionMethod::diffusion || partition.parts == 1))
+    if (partition.levels && (!is_chosen || partition.parts == 1))
         throw AgreedError(
             ExitCode::usage,
             "--levels needs two parts or more, and cannot be joined with --no-choose, --subsets, "
             "--segments or --partition diffusion");
-    if (partition.parts == found_parts && (partition.subsets > 0 || partition.segments || !partition.choose ||
-                                           partition.method == PartitionMethod::diffusion))
+    if (partition.parts == found_parts && !is_chosen)
         throw AgreedError(ExitCode::usage,
                           "--parts auto compares partitions by their scores, and cannot be joined with "
                           "--no-choose (which --preset paper sets), --subsets, --segments or --partition "

@@ -9,9 +9,17 @@
 
 namespace coseg {
 
+namespace {
+
+bool is_off(const PatchFeatures& features, const PartitionOptions& options) {
+    return options.align == AlignMode::off || features.positions.cols() == 0;
+}
+
+}  // namespace
+
 ShapeAlignment aligned(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                        const SparseCoefficients& coefficients, const PartitionOptions& options) {
-    if (options.align == AlignMode::off || features.positions.cols() == 0) {
+    if (is_off(features, options)) {
         ShapeAlignment alignment;
         alignment.reason = "it is switched off";
         return alignment;
@@ -26,8 +34,7 @@ ShapeAlignment aligned(const Comm& comm, const Collection& collection, const Pat
 ShapeAlignment alignment_stage(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                StageLog& log) {
-    if (options.align == AlignMode::off || features.positions.cols() == 0)
-        return aligned(comm, collection, features, coefficients, options);
+    if (is_off(features, options)) return aligned(comm, collection, features, coefficients, options);
     log.begin("align");
     ShapeAlignment alignment = aligned(comm, collection, features, coefficients, options);
     log.end((alignment.applied() ? "aligned: " : "as they stand: ") + alignment.reason);

@@ -23,7 +23,7 @@ from ._errors import Error, InputError, UsageError, translated as _translated
 from ._measures import Description, Score, describe, score
 from ._pictures import draw
 from ._segmentation import Progress, Result, assign, segment
-from ._shapes import MeshesLike, MeshLike, path_bytes
+from ._shapes import MeshesLike, MeshLike, given_whole_number, path_bytes
 
 __version__ = _core.version()
 
@@ -81,9 +81,7 @@ def generate(family: str, count: int = 12, *, seed: int = 1, faces: int = 5000) 
     """
     for what, value, least, end in (("count", count, -2**31, 2**31), ("seed", seed, 0, 2**64),
                                     ("faces", faces, -2**31, 2**31)):
-        if isinstance(value, bool) or not hasattr(value, "__index__"):
-            raise UsageError(f"{what}: {value!r} is no whole number")
-        if not least <= value.__index__() < end:
+        if not least <= given_whole_number(what, value) < end:
             raise UsageError(f"{what}: {value!r} is not in {least} .. {end - 1}")
     with _translated():
         return [_mesh(*mesh, labels=labels, name=name)

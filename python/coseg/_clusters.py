@@ -10,8 +10,8 @@ import numpy as np
 
 from . import _core
 from ._errors import InputError, UsageError, translated
-from ._segmentation import Progress, _whole_number
-from ._shapes import given_communicator
+from ._segmentation import Progress
+from ._shapes import given_communicator, given_whole_number
 
 
 @dataclasses.dataclass
@@ -79,7 +79,7 @@ def cluster(features: Union[Any, Sequence[Any]], parts: int, *, groups: Optional
     """
     matrices = _matrices(features)
     settings = _core.ClusterSettings()
-    settings.parts = _whole_number("parts", parts)
+    settings.parts = given_whole_number("parts", parts)
     if groups is not None:
         settings.groups = np.unique(np.asarray(groups), return_inverse=True)[1].astype(np.intc).tolist()
     for name, value in (("unit_items", bool(unit_items)), ("alpha", alpha), ("beta", beta), ("lambda_", lambda_),

@@ -12,7 +12,8 @@ import numpy as np
 from . import _core
 from ._alignment import Alignment, alignment_of
 from ._errors import InputError, UsageError, translated
-from ._shapes import MeshesLike, given_communicator, given_options, given_path, given_shapes
+from ._shapes import (MeshesLike, given_communicator, given_options, given_path, given_shapes,
+                      given_whole_number)
 
 #: Called as progress(stage, done, total) whenever a stage begins (0, 0), gets further, and ends (1, 1). It is
 #: called on every rank. What it raises ends the call.
@@ -143,18 +144,12 @@ def _result(raw: Dict[str, Any], folder: Optional[str]) -> Result:
                   alignment=alignment_of(raw["alignment"], [bool(shape["set_aside"]) for shape in shapes]))
 
 
-def _whole_number(what: str, value: Any) -> int:
-    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
-        raise UsageError(f"{what}: {value!r} is no whole number")
-    return value.__index__()
-
-
 def _number_of_parts(value: Any) -> int:
     if isinstance(value, str):
         if value != "auto":
             raise UsageError(f"parts: {value!r} is neither a whole number nor 'auto'")
         return _core.automatic_parts
-    parts = _whole_number("parts", value)
+    parts = given_whole_number("parts", value)
     if not 1 <= parts <= 1000:
         raise UsageError(f"parts: {parts} is not in 1 .. 1000")
     return parts

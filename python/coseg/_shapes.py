@@ -146,6 +146,12 @@ def given_shapes(meshes: MeshesLike, names: Optional[Sequence[str]] = None) -> l
     return shapes
 
 
+def given_whole_number(what: str, value: Any) -> int:
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
+        raise UsageError(f"{what}: {value!r} is no whole number")
+    return value.__index__()
+
+
 def given_options(options: Mapping[str, Any]) -> list:
     """[(name, text)]: geodesic_samples=200 is the option --geodesic-samples 200."""
     return [(name.rstrip("_").replace("_", "-"), _option_text(value)) for name, value in options.items()

@@ -20,7 +20,7 @@ constexpr int hashed_starts = 24;
 constexpr int tried_turns = 40;  ///< beside those by right angles
 constexpr double as_good = 0.9;
 constexpr double outlier_gain = 2.0;
-constexpr double outlier_share_of_median = 0.5;
+constexpr double enough_of_median = 0.5;
 constexpr int pairs_of_a_shape = 4;
 constexpr double most_scale = 2.0;
 
@@ -91,12 +91,12 @@ LinkedPoints mirrored(LinkedPoints points) {
 
 }  // namespace
 
-double median_agreement(const std::vector<ShapePose>& poses) {
+double enough_agreement(const std::vector<ShapePose>& poses) {
     std::vector<double> agreements;
     for (const ShapePose& pose : poses) agreements.push_back(pose.agreement);
     const auto middle = agreements.begin() + std::ssize(agreements) / 2;
     std::nth_element(agreements.begin(), middle, agreements.end());
-    return *middle;
+    return enough_of_median * *middle;
 }
 
 PoseRounds::PoseRounds(const Comm& comm, const AlignmentInput& input, const LinksOfMeshes& links)
@@ -231,13 +231,13 @@ void PoseRounds::fit(FitStarts starts) {
 
 ShapePose PoseRounds::turned_outlier(int mesh, const LinkedPoints& points, double enough) const {
     ShapePose pose = poses_[at(mesh)];
-    pose.agreement = agreement(points, pose.rotation);
     if (pose.is_turned()) {
         const FittedRotation again = fitted_near(points, pose.rotation);
         pose.rotation = again.rotation;
         pose.agreement = again.agreement;
         return pose;
     }
+    pose.agreement = agreement(points, pose.rotation);
     const std::uint64_t seed = hash_words({input_.seed, input_.mesh_keys[at(mesh)]});
     const FittedRotation best = fitted(points, hashed_rotations(hashed_starts, seed));
     if (best.agreement < outlier_gain * pose.agreement || best.agreement < enough) return pose;
@@ -247,7 +247,7 @@ ShapePose PoseRounds::turned_outlier(int mesh, const LinkedPoints& points, doubl
 }
 
 void PoseRounds::turn_outliers() {
-    const double enough = outlier_share_of_median * median_agreement(poses_);
+    const double enough = enough_agreement(poses_);
     round([&](int mesh, const std::vector<PatchLink>& links) {
         return links.empty() ? poses_[at(mesh)] : turned_outlier(mesh, points_of(links), enough);
     });

@@ -15,8 +15,9 @@
 
 namespace coseg {
 
-/// Of the agreements, the one in the middle; of two, the larger. At least one pose.
-double median_agreement(const std::vector<ShapePose>& poses);
+/// Below it the links of a shape say nothing of how it stands: half of the median agreement, of two in the
+/// middle the larger. At least one pose.
+double enough_agreement(const std::vector<ShapePose>& poses);
 
 /// From where else than its own pose a shape is fitted.
 enum class FitStarts {

@@ -21,7 +21,6 @@ namespace {
 
 constexpr double enough_standing = 0.5;  ///< share of the shapes
 constexpr double clearly_better = 7.0 / 6.0;
-constexpr double enough_agreement = 0.5;  ///< of the median over the shapes
 constexpr int turning_rounds = 4;
 constexpr int settling_rounds = 2;
 constexpr int outlier_rounds = 3;
@@ -76,9 +75,13 @@ ShapeAlignment outliers_turned(PoseRounds& rounds, ShapeAlignment alignment) {
     std::vector<ShapePose> poses = rounds.poses();
     for (ShapePose& pose : poses) pose.found = true;
     rounds.set(std::move(poses));
-    for (int round = 0; round < outlier_rounds; ++round) rounds.turn_outliers();
-    const auto turned = std::count_if(rounds.poses().begin(), rounds.poses().end(),
-                                      [](const ShapePose& pose) { return pose.is_turned(); });
+    std::ptrdiff_t turned = 0;
+    for (int round = 0; round < outlier_rounds; ++round) {
+        rounds.turn_outliers();
+        turned = std::count_if(rounds.poses().begin(), rounds.poses().end(),
+                               [](const ShapePose& pose) { return pose.is_turned(); });
+        if (turned == 0) break;  // another round would find the same
+    }
     if (turned == 0)
         return without_poses(alignment,
                              percent(alignment.standing_share, 0) + " stand like the others already");
@@ -93,7 +96,7 @@ ShapeAlignment outliers_turned(PoseRounds& rounds, ShapeAlignment alignment) {
 /// Whose links agree much less than those of others stands by chance: a chair without a back is put on its
 /// head if its one foot is linked with backs.
 void doubt_where_links_agree_little(std::vector<ShapePose>& poses) {
-    const double enough = enough_agreement * median_agreement(poses);
+    const double enough = enough_agreement(poses);
     for (ShapePose& pose : poses) pose.found = pose.found && pose.agreement >= enough;
 }
 

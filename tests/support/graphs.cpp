@@ -1,5 +1,6 @@
 #include "tests/support/graphs.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "src/base/seeded_random.hpp"
@@ -169,6 +170,19 @@ ToyCollection toy_collection(const Comm& comm, int meshes, int parts, int patche
         w.offsets.push_back(static_cast<std::int64_t>(w.rows.size()));
     }
     return toy;
+}
+
+Eigen::MatrixXf segment_histograms(const ToyCollection& toy) {
+    const int parts = 1 + *std::max_element(toy.truth.begin(), toy.truth.end());
+    Eigen::MatrixXf histograms(parts, toy.patches);
+    for (int i = 0; i < toy.patches; ++i) {
+        for (int p = 0; p < parts; ++p) {
+            const double noise = 0.3 * uniform_of(hash_words({word(i), word(p)}));
+            histograms(p, i) =
+                static_cast<float>(toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 + noise : noise);
+        }
+    }
+    return histograms;
 }
 
 }  // namespace coseg::testing_graphs

@@ -52,5 +52,7 @@ struct ToyCollection {
 /// Relations are those of the meshes m with m % ranks = rank.
 ToyCollection toy_collection(const Comm& comm, int meshes, int parts, int patches_per_part,
                              std::uint64_t seed);
+/// K x N: a descriptor that tells the segments apart, with some noise.
+Eigen::MatrixXf segment_histograms(const ToyCollection& toy);
 
 }  // namespace coseg::testing_graphs

@@ -4,34 +4,20 @@
 
 #include <algorithm>
 
-#include "src/base/seeded_random.hpp"
 #include "tests/support/graphs.hpp"
 
 namespace coseg {
 namespace {
 
 using testing_graphs::same_partition;
+using testing_graphs::segment_histograms;
 using testing_graphs::toy_collection;
 using testing_graphs::ToyCollection;
-
-/// Tells the segments apart, with some noise.
-Eigen::MatrixXf noisy_segments(const ToyCollection& toy, int parts) {
-    Eigen::MatrixXf histograms(parts, toy.patches);
-    for (int i = 0; i < toy.patches; ++i) {
-        for (int p = 0; p < parts; ++p) {
-            const double noise =
-                0.3 * uniform_of(hash_words({static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(p)}));
-            histograms(p, i) =
-                static_cast<float>((toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 : 0.0) + noise);
-        }
-    }
-    return histograms;
-}
 
 CountedParts counted(const Comm& comm, int parts, std::int64_t one_rank_entries = 1'000'000) {
     const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
     const std::vector<ChoiceDescriptor> descriptors = {
-        {noisy_segments(toy, parts), {.pooled = 15.0, .per_mesh = 20.0}}};
+        {segment_histograms(toy), {.pooled = 15.0, .per_mesh = 20.0}}};
     CutOptions options;
     options.starts = pooled_starts(2);
     options.spectral.mesh_balance = 0.3;

@@ -16,28 +16,14 @@ namespace coseg {
 namespace {
 
 using testing_graphs::same_partition;
+using testing_graphs::segment_histograms;
 using testing_graphs::toy_collection;
 using testing_graphs::ToyCollection;
-
-/// A descriptor that tells the segments apart, with some noise.
-Eigen::MatrixXf histograms_of(const ToyCollection& toy) {
-    const int parts = 1 + *std::max_element(toy.truth.begin(), toy.truth.end());
-    Eigen::MatrixXf histograms(parts, toy.patches);
-    for (int i = 0; i < toy.patches; ++i) {
-        for (int p = 0; p < parts; ++p) {
-            const double noise =
-                0.3 * uniform_of(hash_words({static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(p)}));
-            histograms(p, i) =
-                static_cast<float>(toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 + noise : noise);
-        }
-    }
-    return histograms;
-}
 
 CutResult cut(const Comm& comm, const ToyCollection& toy, const CutOptions& options) {
     // What the descriptors of a run weigh together.
     const std::vector<ChoiceDescriptor> descriptors = {
-        {histograms_of(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
+        {segment_histograms(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
     return partition_patches(
         comm, {toy.coefficients, toy.neighbors, toy.overlaps, toy.mesh_of, toy.area, descriptors}, options);
 }
@@ -161,7 +147,7 @@ ExampleLabels labels_of_the_first_mesh(const ToyCollection& toy, int parts) {
 CutResult cut_by_example(const Comm& comm, const ToyCollection& toy, int parts, const ExampleLabels& examples,
                          std::int64_t one_rank_entries = 1'000'000) {
     const std::vector<ChoiceDescriptor> descriptors = {
-        {histograms_of(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
+        {segment_histograms(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
     const FeatureMatrices features({Eigen::MatrixXd(descriptors[0].histograms.cast<double>())});
     CutOptions options = pooled(parts);
     options.one_rank_entries = one_rank_entries;
