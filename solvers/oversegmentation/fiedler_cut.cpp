@@ -2,6 +2,7 @@
 
 #include <Spectra/SymEigsSolver.h>
 #include <Eigen/Eigenvalues>
+#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace coseg {
 namespace {
 
 constexpr int largest_dense = 48;  // up to here a dense solve is the faster one
-constexpr int lanczos_basis = 20;  // vectors between restarts
+constexpr int lanczos_basis = 8;   // vectors between restarts: the inverse has a gap, and few suffice
 constexpr int lanczos_restarts = 200;
 constexpr double lanczos_tolerance = 1e-7;  // relative to 1/mu; a sweep needs the order of the entries only
 
@@ -39,16 +40,14 @@ class InverseLaplacian {
   private:
     Eigen::VectorXd root_mass_;
     Eigen::VectorXd constant_;  // M^1/2 1 at unit length
-    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor_;
+    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;
 };
 
-InverseLaplacian::InverseLaplacian(const WeightedGraph& graph) {
-    const int grounded = graph.node_count() - 1;
-    root_mass_ = Eigen::Map<const Eigen::VectorXd>(graph.mass.data(), graph.node_count()).cwiseSqrt();
-    constant_ = root_mass_.normalized();
+/// The lower triangle of the Laplacian of the first `nodes` nodes: edges to others count for the diagonal only.
+Eigen::SparseMatrix<double> lower_laplacian(const WeightedGraph& graph, int nodes) {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(graph.weights.size() / 2 + graph.mass.size());
-    for (int v = 0; v < grounded; ++v) {
+    for (int v = 0; v < nodes; ++v) {
         double degree = 0.0;
         for (int k = graph.offsets[at(v)]; k < graph.offsets[at(v) + 1]; ++k) {
             const double weight = graph.weights[at(k)];
@@ -58,9 +57,16 @@ InverseLaplacian::InverseLaplacian(const WeightedGraph& graph) {
         }
         entries.emplace_back(v, v, degree);
     }
-    Eigen::SparseMatrix<double> laplacian(grounded, grounded);
+    Eigen::SparseMatrix<double> laplacian(nodes, nodes);
     laplacian.setFromTriplets(entries.begin(), entries.end());
-    factor_.compute(laplacian);
+    return laplacian;
+}
+
+InverseLaplacian::InverseLaplacian(const WeightedGraph& graph) {
+    const int grounded = graph.node_count() - 1;
+    root_mass_ = Eigen::Map<const Eigen::VectorXd>(graph.mass.data(), graph.node_count()).cwiseSqrt();
+    constant_ = root_mass_.normalized();
+    factor_.compute(lower_laplacian(graph, grounded));
 }
 
 void InverseLaplacian::perform_op(const double* in, double* out) const {
@@ -178,6 +184,14 @@ TwoWayCut component_cut(const std::vector<int>& component) {
 }
 
 }  // namespace
+
+std::vector<int> elimination_places(const WeightedGraph& graph) {
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+    const Eigen::SparseMatrix<double> laplacian = lower_laplacian(graph, graph.node_count());
+    Eigen::AMDOrdering<int>()(laplacian.selfadjointView<Eigen::Lower>(), order);
+    const Eigen::VectorXi places = order.inverse().eval().indices();
+    return {places.begin(), places.end()};
+}
 
 FiedlerPair fiedler_pair(const WeightedGraph& graph) {
     FiedlerPair pair;

@@ -176,8 +176,10 @@ std::vector<int> oversegment(const FaceGeometry& geometry, const DualGraph& grap
     std::iota(patch.begin(), patch.end(), 0);
     if (graph.face_count <= options.patches) return patch;
     const WeightedGraph faces = noisy_face_graph(geometry, graph, options.noise, seed);
-    const std::vector<int> super_face = agglomerate(faces, std::max(options.super_faces, options.patches));
+    std::vector<int> super_face = agglomerate(faces, std::max(options.super_faces, options.patches));
     const int super_faces = *std::max_element(super_face.begin(), super_face.end()) + 1;
+    const std::vector<int> place = elimination_places(contracted_graph(faces, super_face, super_faces));
+    for (int& s : super_face) s = place[at(s)];
     const WeightedGraph super_graph = contracted_graph(faces, super_face, super_faces);
     std::vector<int> region = recursive_cuts(super_graph, options.patches);
     merge_smallest(super_graph, region, options.patches);

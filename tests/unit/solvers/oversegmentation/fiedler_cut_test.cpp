@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "src/base/seeded_random.hpp"
 
@@ -67,6 +68,37 @@ double residual(const WeightedGraph& graph, const FiedlerPair& pair) {
         scale = std::max(scale, pair.value * graph.mass[v] * std::abs(pair.vector[v]));
     }
     return largest / scale;
+}
+
+/// Entries of the Cholesky factor of L + M where nodes are eliminated by their number.
+int factor_entries(const WeightedGraph& graph) {
+    std::vector<std::set<int>> later(graph.mass.size());
+    int entries = 0;
+    for (std::size_t v = 0; v < later.size(); ++v) {
+        for (int k = graph.offsets[v]; k < graph.offsets[v + 1]; ++k) {
+            const int u = graph.neighbors[static_cast<std::size_t>(k)];
+            if (u > static_cast<int>(v)) later[v].insert(u);
+        }
+    }
+    for (std::set<int>& after : later) {
+        entries += 1 + static_cast<int>(after.size());
+        if (after.empty()) continue;
+        std::set<int>& parent = later[static_cast<std::size_t>(*after.begin())];
+        parent.insert(std::next(after.begin()), after.end());
+    }
+    return entries;
+}
+
+TEST(EliminationPlaces, ArePlacesAndFillLessThanTheOrderOfAGrid) {
+    const WeightedGraph by_columns = grid(30, 30);
+    const std::vector<int> place = elimination_places(by_columns);
+    std::vector<int> sorted = place;
+    std::sort(sorted.begin(), sorted.end());
+    for (int v = 0; v < 900; ++v) ASSERT_EQ(sorted[static_cast<std::size_t>(v)], v);
+    const WeightedGraph renumbered = contracted_graph(by_columns, place, 900);
+    // A band of 30 has some 900 x 31 entries; minimum degree less than half of that.
+    EXPECT_LT(factor_entries(renumbered), factor_entries(by_columns) / 2);
+    EXPECT_EQ(renumbered.weights.size(), by_columns.weights.size());
 }
 
 TEST(FiedlerPair, PathHasTheKnownValue) {
