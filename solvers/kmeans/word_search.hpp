@@ -13,8 +13,8 @@ struct NearestWord {
     float second_distance = 0.0F;  ///< not above the distance to any other word; infinity if there is none
 };
 
-/// Searches one set of words in single precision. Blocks have a fixed size, so that a result depends on the
-/// words and on the list of points only.
+/// Searches one set of words in single precision, by inner products (pair_score_kernel.hpp). The result for a
+/// point depends on the point and on the words only.
 class WordSearch {
   public:
     /// words: d x K, column major, K >= 1.
@@ -29,7 +29,10 @@ class WordSearch {
     [[nodiscard]] float distance(const Eigen::MatrixXf& points, int column, int word) const;
 
   private:
+    void pack_words();
+
     Eigen::MatrixXf words_;
+    std::vector<float> word_groups_;  ///< the words in groups of columns, as the kernel reads them
     Eigen::VectorXf square_norms_;
     float largest_square_norm_ = 0.0F;
 };
