@@ -40,7 +40,7 @@ std::optional<BlockRange> columns_of(const std::string& name) {
 ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& options) {
     // One name for each field: a new one does not compile until it has been thought of here.
     const auto& [features, alpha, beta, lambda, scope, mesh_of, allowed_meshes] = problem;
-    const auto& [gap, max_iterations, max_seconds, solver, progress, checkpoint] = options;
+    const auto& [gap, max_iterations, max_seconds, solver, progress, checkpoint, pair_scorer] = options;
     ContentHasher hasher;
     hasher.add(source_fingerprint(KeptPiece::solutions));
     hasher.add(std::int64_t{tiles_version});
@@ -56,6 +56,7 @@ ContentHash problem_key(const SubspaceProblem& problem, const SolveOptions& opti
     static_cast<void>(max_seconds);  // a tile that the clock cut short is not kept
     static_cast<void>(progress);
     static_cast<void>(checkpoint);
+    static_cast<void>(pair_scorer);  // the certificate holds whoever scores
     return hasher.result();
 }
 

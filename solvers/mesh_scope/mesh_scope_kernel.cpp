@@ -7,14 +7,6 @@
 namespace coseg {
 
 COSEG_FOR_EVERY_WIDTH
-void add_excess_squares(const float* scores, float price, std::size_t count, float* squares) {
-    for (std::size_t p = 0; p < count; ++p) {
-        const float excess = std::max(scores[p] - price, 0.0F);
-        squares[p] += excess * excess;
-    }
-}
-
-COSEG_FOR_EVERY_WIDTH
 void add_excess_squares(const double* scores, double price, std::size_t count, double* squares) {
     for (std::size_t p = 0; p < count; ++p) {
         const double excess = std::max(scores[p] - price, 0.0);

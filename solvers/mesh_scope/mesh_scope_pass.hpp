@@ -4,11 +4,14 @@
 
 #include <Eigen/Core>
 #include <limits>
-#include <tuple>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "solvers/mesh_scope/mesh_scope_column.hpp"
 #include "solvers/subspace/feature_stack.hpp"
+#include "solvers/subspace/pair_scorer.hpp"
+#include "solvers/subspace/panel_columns.hpp"
 
 namespace coseg {
 
@@ -43,14 +46,13 @@ struct PassColumn {
     std::vector<double> group_sums;          ///< per group of rows: s_g
 };
 
-/// Scores all rows of the groups `allowed` (ascending) against the columns, except the own group of a column,
-/// as blocked matrix products. Single precision finds the same answers as double precision, with a wider
-/// allowance for rounding.
+/// Scores all rows of the groups `allowed` (ascending) against the columns, except the own group of a column.
+/// Single precision finds the same answers as double precision, with a wider allowance for rounding.
 class MeshScopePass {
   public:
     /// `stack`: in the order of `meshes`. Collective; the rest is not.
     MeshScopePass(const Comm& comm, const FeatureStack& stack, const MeshOrder& meshes,
-                  const ColumnPenalties& penalties);
+                  const ColumnPenalties& penalties, const PairScorerFactory& scorer);
 
     std::vector<ColumnVerdict> single_precision(const std::vector<PassColumn>& columns,
                                                 const std::vector<int>& allowed);
@@ -61,25 +63,30 @@ class MeshScopePass {
     struct Survey;
     template <class Real>
     struct Scores;
+    [[nodiscard]] std::vector<Survey> start_surveys(const std::vector<PassColumn>& columns, double rounding,
+                                                    Eigen::MatrixXd& duals) const;
+    void score_panels(std::vector<Survey>& surveys, int group);
+    void look_at_panel(std::vector<Survey>& surveys, int group, int panel, int place);
+    void score_in_double(std::vector<Survey>& surveys, int group, const Eigen::MatrixXd& duals);
     template <class Real>
-    std::vector<ColumnVerdict> survey_all(const std::vector<PassColumn>& columns,
-                                          const std::vector<int>& allowed, const Real* stacked);
+    void look_at_row(Survey& survey, int row, double square, const Scores<Real>& scores) const;
     template <class Real>
-    void score_rows(Survey& survey, const Scores<Real>& scores);
-    template <class Real>
-    void score_group(Survey& survey, int group, int begin, int end, const Real* squares,
-                     const Scores<Real>& scores);
-    template <class Real>
-    void require_shift(Survey& survey, int row, double norm, double limit, const Scores<Real>& scores);
-    [[nodiscard]] Survey start_survey(const PassColumn& column, double rounding) const;
+    void require_shift(Survey& survey, int row, double norm, double limit, const Scores<Real>& scores) const;
+    [[nodiscard]] Survey start_survey(const PassColumn& column, double rounding, double* dual) const;
+    [[nodiscard]] std::vector<ColumnVerdict> finish_surveys(std::vector<Survey>& surveys) const;
     [[nodiscard]] ColumnVerdict finish_survey(Survey& survey) const;
 
     const FeatureStack& stack_;
     const MeshOrder& meshes_;
     const ColumnPenalties& penalties_;
-    SingleColumns single_columns_;
+    PanelColumns panels_;
+    std::unique_ptr<PairScorer> scorer_;
+    std::vector<float> prices_;         ///< beta, for every feature and place
     std::vector<double> largest_norm_;  ///< per feature, over all columns
-    std::tuple<std::vector<float>, std::vector<double>> squares_;
+    DualColumns single_duals_;
+    PanelScores scores_;
+    std::vector<double> exact_scores_;
+    std::vector<double> exact_squares_;
 };
 
 }  // namespace coseg

@@ -55,7 +55,7 @@ class MeshScopeSolver {
           penalties_{problem.alpha, problem.beta, problem.lambda},
           meshes_(sort_by_mesh(problem.mesh_of)),
           stack_(stack_features(comm, problem, meshes_.order)),
-          pass_(comm, stack_, meshes_, penalties_),
+          pass_(comm, stack_, meshes_, penalties_, options.pair_scorer),
           allowed_meshes_(problem.allowed_meshes) {}
 
     /// The columns [begin, end) of the problem, each solved; a function of these columns alone.

@@ -1,5 +1,7 @@
 #include "solvers/numeric/pair_score_kernel.hpp"
 
+#include <algorithm>
+
 #include "src/base/vector_clones.hpp"
 
 // One text for every width of vectors: the compiler's own vectors, in functions for the machines that have
@@ -9,6 +11,10 @@
 namespace coseg {
 
 namespace {
+
+/// Rows that are scored at once where fewer are left than fill the registers.
+constexpr int row_block = 16;
+static_assert(panel_rows % row_block == 0);
 
 /// For loops that the compiler turns into vectors; it does not with a shift.
 struct Bits {
@@ -52,18 +58,28 @@ COSEG_INLINE void score_block(ScoredRows rows, ScoredColumns group, int depth, P
     }
 }
 
-/// All groups, in blocks of the given shape.
+/// The rows [r, r + vectors * width) of a panel against the columns of one group.
+template <int width, int vectors, int columns>
+COSEG_INLINE void score_rows_of_group(ScoredRows rows, ScoredColumns group, int depth, PairScores to, int r) {
+    for (int c = 0; c < group_columns; c += columns) {
+        const int place = c * panel_rows + r;
+        score_block<width, vectors, columns>({rows.values + r, rows.prices + r},
+                                             {group.values + c, group.errors + c, 1}, depth,
+                                             {to.scores + place, to.squares + place});
+    }
+}
+
+/// All groups, in blocks of the given shape, and what is left of the rows in single row blocks.
 template <int width, int vectors, int columns>
 COSEG_INLINE void score_groups(ScoredRows rows, ScoredColumns group, int depth, PairScores to) {
+    constexpr int step = vectors * width;
+    constexpr int spared = std::max(step - row_block, 0);
     for (int g = 0; g < group.groups; ++g) {
-        for (int r = 0; r < panel_rows; r += vectors * width) {
-            for (int c = 0; c < group_columns; c += columns) {
-                const int place = c * panel_rows + r;
-                score_block<width, vectors, columns>({rows.values + r, rows.prices + r},
-                                                     {group.values + c, group.errors + c, 1}, depth,
-                                                     {to.scores + place, to.squares + place});
-            }
-        }
+        int r = 0;
+        for (; r + step <= panel_rows && r + spared < rows.used; r += step)
+            score_rows_of_group<width, vectors, columns>(rows, group, depth, to, r);
+        for (; r < rows.used; r += row_block)
+            score_rows_of_group<width, row_block / width, columns>(rows, group, depth, to, r);
         group.values += depth * group_columns;
         group.errors += group_columns;
         to.scores += panel_rows * group_columns;

@@ -1,6 +1,6 @@
 #pragma once
-// The matrix product of row scope's pass over all pairs. It forms the squares of what exceeds the prices in
-// the same loop.
+// The matrix product of the passes over all pairs. It forms the squares of what exceeds the prices in the
+// same loop.
 
 #include <cstdint>
 
@@ -12,9 +12,11 @@ constexpr int panel_rows = 48;
 constexpr int group_columns = 8;
 
 /// The rows of a panel: `depth` times, its panel_rows values together. There is one of `prices` for each row.
+/// Only the first `used` need results.
 struct ScoredRows {
     const float* values;
     const float* prices;
+    int used = panel_rows;
 };
 
 /// Groups of columns: group by group and `depth` times, the group_columns values together. There is one of
@@ -32,7 +34,7 @@ struct PairScores {
 };
 
 /// Computes scores = A^T B for a panel of rows and groups of columns, and squares += (scores + errors -
-/// prices)_+^2, in single precision.
+/// prices)_+^2, in single precision. Results of rows that are not used may have any value.
 ///
 /// Each score is summed in the order of `depth`, whatever the width of the vectors and the place of its row
 /// and column. Its bits depend neither on which rank computes it, nor on what is computed beside it. The

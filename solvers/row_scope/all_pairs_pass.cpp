@@ -1,6 +1,7 @@
 #include "solvers/row_scope/all_pairs_pass.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -37,37 +38,38 @@ int longest_feature(const FeatureStack& stack) {
 
 }  // namespace
 
-/// The current columns, which are whole coefficient tiles, and the scores of one panel of rows.
+/// The current columns, which are whole coefficient tiles, and the scores of a batch of panels of rows.
 struct AllPairsPass::Tile {
     int first = 0;        ///< column
     int first_local = 0;  ///< the same, counted from this rank's first
     int width = 0;
-    int groups = 0;  ///< of columns, the last filled up
     std::span<const RowScopeColumn> fits;
     std::vector<std::size_t> next_working;  ///< per column: the first working row not yet passed
     Eigen::MatrixXd reconstruction;         ///< D x width
     Eigen::MatrixXd exact_duals;            ///< u, D x width
-    std::vector<float> duals;               ///< u, feature by feature in the groups of score_pairs
-    std::vector<float> errors;              ///< of a score, feature by feature
+    DualColumns duals;                      ///< u, with the error of a score
     std::vector<float> doubtful_square;     ///< per column: below, a pair is looked at in double
-    std::vector<float> scores;              ///< H times panel_rows x columns
-    std::vector<float> squares;             ///< panel_rows x columns: ||(score + error - price)_+||^2
+    PanelScores scores;                     ///< squares: ||(score + error - price)_+||^2
     std::vector<float> least_squares;       ///< per column: of the least score kept, rounded down
     std::vector<std::uint64_t> above;       ///< per column: the rows of the panel that need a look
-
-    [[nodiscard]] int columns() const { return groups * group_columns; }
-    [[nodiscard]] const float* squares_of(int column) const {
-        return squares.data() + static_cast<std::ptrdiff_t>(column) * panel_rows;
-    }
 };
 
-AllPairsPass::AllPairsPass(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack)
+/// A panel of rows, and its place in the batch of the tile's scores.
+struct AllPairsPass::ScoredPanel {
+    int begin = 0;               ///< its first row
+    std::uint64_t row_bits = 0;  ///< see PanelColumns
+    int place = 0;
+};
+
+AllPairsPass::AllPairsPass(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
+                           const PairScorerFactory& scorer)
     : comm_(comm),
       problem_(problem),
       stack_(stack),
       limit2_(static_cast<float>(problem.alpha * problem.alpha * (1.0 - 64.0 * single_rounding))),
       rounding_(single_rounding * (longest_feature(stack) + 8)),
-      panels_(comm, stack),
+      panels_(comm, stack, std::array{0, stack.size}),
+      scorer_(scorer(stack, panels_)),
       padded_rows_(at(panels_.count()) * panel_rows),
       low_prices_(at(stack.features) * padded_rows_, std::numeric_limits<float>::max()),
       tile_(std::make_unique<Tile>()),
@@ -125,31 +127,29 @@ void AllPairsPass::start(const WorkingSet& working, const std::vector<double>& r
             low_prices_[h * padded_rows_ + i] = static_cast<float>(price * (1.0 - 8.0 * single_rounding));
         }
     }
+    scorer_->set_prices(low_prices_);
     row_best_.assign(n * kept, {});
     row_least_.assign(padded_rows_, 0.0F);
     column_best_.assign(working.fits.size() * kept, {});
     any_violation_ = false;
 }
 
-/// The dual of the tile's column, as it is and in the groups of score_pairs.
+/// The dual of the tile's column, as it is and in single precision.
 void AllPairsPass::set_column(Tile& tile, int column) const {
     double errors2 = 0.0;
+    std::vector<double> errors(at(stack_.features));
+    const double* x = stack_.columns.col(tile.first + column).data();
+    const double* z = tile.reconstruction.col(column).data();
+    double* u = tile.exact_duals.col(column).data();
+    for (int k = 0; k < stack_.dimension; ++k) u[k] = 2.0 * (x[k] - z[k]);
     for (int h = 0; h < stack_.features; ++h) {
-        const int from = stack_.offset[at(h)];
-        const int depth = stack_.rows_of(h);
-        const int group = column / group_columns;
-        float* dual = tile.duals.data() + static_cast<std::ptrdiff_t>(from) * tile.columns() +
-                      static_cast<std::ptrdiff_t>(group) * depth * group_columns + column % group_columns;
-        const double* x = stack_.columns.col(tile.first + column).data() + from;
-        const double* z = tile.reconstruction.col(column).data() + from;
-        double* u = tile.exact_duals.col(column).data() + from;
-        for (int k = 0; k < depth; ++k) u[k] = 2.0 * (x[k] - z[k]);
-        for (int k = 0; k < depth; ++k)
-            dual[static_cast<std::ptrdiff_t>(k) * group_columns] = static_cast<float>(u[k]);
-        const double error = rounding_ * std::sqrt(inner_product(u, u, depth)) * largest_norm_[at(h)];
+        const double* dual = u + stack_.offset[at(h)];
+        const double error =
+            rounding_ * std::sqrt(inner_product(dual, dual, stack_.rows_of(h))) * largest_norm_[at(h)];
         errors2 += error * error;
-        tile.errors[at(h * tile.columns() + column)] = static_cast<float>(error);
+        errors[at(h)] = error;
     }
+    tile.duals.set(column, u, errors.data());
     const double enough = problem_.alpha + doubtful * std::sqrt(errors2);
     tile.doubtful_square[at(column)] = static_cast<float>(enough * enough);
 }
@@ -159,16 +159,13 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
     tile.first_local = static_cast<int>(begin);
     tile.width =
         static_cast<int>(std::min<std::int64_t>(tile_columns(stack_), working.columns.size() - begin));
-    tile.groups = (tile.width + group_columns - 1) / group_columns;
     tile.fits = std::span(working.fits).subspan(at(begin), at(tile.width));
     tile.next_working.assign(tile.fits.size(), 0);
     tile.reconstruction.resize(stack_.dimension, tile.width);
     tile.exact_duals.resize(stack_.dimension, tile.width);
-    const auto columns = at(tile.columns());
-    tile.duals.assign(at(stack_.dimension) * columns, 0.0F);
-    tile.errors.assign(at(stack_.features) * columns, 0.0F);
-    tile.scores.resize(at(stack_.features) * columns * panel_rows);
-    tile.squares.resize(columns * panel_rows);
+    tile.duals.reset(stack_, tile.width);
+    const auto columns = at(tile.duals.columns());
+    tile.scores.resize(scorer_->batch_panels(), stack_.features, tile.duals.columns());
     tile.least_squares.resize(columns);
     tile.doubtful_square.resize(columns);
     tile.above.resize(columns);
@@ -179,18 +176,17 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
     }
 }
 
-/// Scores of the panel's rows against the tile's columns, and their squares, so that no violation is missed
-/// for rounding.
-void AllPairsPass::score(Tile& tile, int panel) const {
-    std::fill(tile.squares.begin(), tile.squares.end(), 0.0F);
-    const std::size_t first = at(panel) * panel_rows;
-    for (int h = 0; h < stack_.features; ++h) {
-        const auto feature = at(h);
-        const int from = stack_.offset[feature];
-        const std::ptrdiff_t columns = tile.columns();
-        score_pairs({panels_.rows(panel, from), low_prices_.data() + feature * padded_rows_ + first},
-                    {tile.duals.data() + from * columns, tile.errors.data() + h * columns, tile.groups},
-                    stack_.rows_of(h), {tile.scores.data() + h * columns * panel_rows, tile.squares.data()});
+/// Scores the rows of all panels against the tile's columns, batch by batch, and looks at each panel while its
+/// scores are there. Squares have the error of a score on top, so that no violation is missed for rounding.
+template <class Look>
+void AllPairsPass::for_each_scored_panel(Tile& tile, const Look& look) {
+    scorer_->set_columns(tile.duals);
+    const int batch = scorer_->batch_panels();
+    for (int first = 0; first < panels_.count(); first += batch) {
+        const int count = std::min(batch, panels_.count() - first);
+        scorer_->score(first, count, tile.scores);
+        for (int p = 0; p < count; ++p)
+            look(ScoredPanel{panels_.first_row(first + p), panels_.row_bits(first + p), p});
     }
 }
 
@@ -204,8 +200,8 @@ void AllPairsPass::keep(const Tile& tile, int column, int row, double norm) {
 }
 
 /// W = 0: nothing is in the working set, and no bound is sought but that of W = 0.
-void AllPairsPass::look_first(Tile& tile, int panel) {
-    const int begin = panel * panel_rows;
+void AllPairsPass::look_first(Tile& tile, const ScoredPanel& panel) {
+    const int begin = panel.begin;
     const auto least_of = [&](int c) {
         return column_best_[at(tile.first_local + c) * kept + kept - 1].score;
     };
@@ -214,11 +210,11 @@ void AllPairsPass::look_first(Tile& tile, int panel) {
         const double least = least_of(c);
         tile.least_squares[at(c)] = static_cast<float>(least * least * (1.0 - 4.0 * single_rounding));
     }
-    find_above(tile.squares.data(), tile.width, limit2_, row_least_.data() + begin, tile.least_squares.data(),
-               tile.above.data());
+    find_above(tile.scores.squares(panel.place, 0), tile.width, limit2_, row_least_.data() + begin,
+               tile.least_squares.data(), tile.above.data());
     for (int c = 0; c < tile.width; ++c) {
-        const float* squares = tile.squares_of(c);
-        for (std::uint64_t rows = tile.above[at(c)]; rows != 0; rows &= rows - 1) {
+        const float* squares = tile.scores.squares(panel.place, c);
+        for (std::uint64_t rows = tile.above[at(c)] & panel.row_bits; rows != 0; rows &= rows - 1) {
             const int r = std::countr_zero(rows);
             const int i = begin + r;
             if (i == tile.first + c) continue;
@@ -237,34 +233,32 @@ void AllPairsPass::exact_scores(const Tile& tile, int column, int row) {
 }
 
 /// Looks at a pair that may violate its limit according to its scores in single precision.
-void AllPairsPass::inspect_pair(const Tile& tile, int column, int row, PaperDualBound& bound) {
-    const auto c = at(column);
-    const std::size_t r = at(row) % panel_rows;
-    const auto columns = at(tile.columns());
+void AllPairsPass::inspect_pair(const Tile& tile, const ScoredPanel& panel, int column, int row,
+                                PaperDualBound& bound) {
+    const int r = row - panel.begin;
     double rounding = rounding_;
-    if (tile.squares[c * panel_rows + r] < tile.doubtful_square[c]) {
+    if (tile.scores.squares(panel.place, column)[r] < tile.doubtful_square[at(column)]) {
         exact_scores(tile, column, row);
         rounding = stack_.inner_product_error();
     } else {
-        for (std::size_t h = 0; h < pair_scores_.size(); ++h)
-            pair_scores_[h] = static_cast<double>(tile.scores[(h * columns + c) * panel_rows + r]);
+        for (int h = 0; h < stack_.features; ++h)
+            pair_scores_[at(h)] = static_cast<double>(tile.scores.scores(panel.place, h, column)[r]);
     }
     const double norm = bound.check_pair(column, row, pair_scores_.data(), rounding);
     if (norm > problem_.alpha) keep(tile, column, row, norm);
 }
 
-void AllPairsPass::scan(Tile& tile, int panel, PaperDualBound& bound) {
-    const int begin = panel * panel_rows;
-    find_above(tile.squares.data(), tile.width, limit2_, tile.above.data());
+void AllPairsPass::scan(Tile& tile, const ScoredPanel& panel, PaperDualBound& bound) {
+    find_above(tile.scores.squares(panel.place, 0), tile.width, limit2_, tile.above.data());
     for (int c = 0; c < tile.width; ++c) {
         const std::vector<int>& working = tile.fits[at(c)].rows;
         std::size_t& next = tile.next_working[at(c)];
-        for (std::uint64_t rows = tile.above[at(c)]; rows != 0; rows &= rows - 1) {
-            const int i = begin + std::countr_zero(rows);
+        for (std::uint64_t rows = tile.above[at(c)] & panel.row_bits; rows != 0; rows &= rows - 1) {
+            const int i = panel.begin + std::countr_zero(rows);
             if (i == tile.first + c) continue;
             while (next < working.size() && working[next] < i) ++next;
             if (next < working.size() && working[next] == i) continue;
-            inspect_pair(tile, c, i, bound);
+            inspect_pair(tile, panel, c, i, bound);
         }
     }
 }
@@ -294,10 +288,7 @@ PassFindings AllPairsPass::first(const WorkingSet& working) {
     Tile& tile = *tile_;
     for (std::int64_t begin = 0; begin < working.columns.size(); begin += tile.width) {
         start_tile(working, begin, tile);
-        for (int panel = 0; panel < panels_.count(); ++panel) {
-            score(tile, panel);
-            look_first(tile, panel);
-        }
+        for_each_scored_panel(tile, [&](const ScoredPanel& panel) { look_first(tile, panel); });
     }
     const bool optimal = sum_over_ranks(any_violation_ ? 1 : 0) == 0;
     const double at_zero = stack_.squared_norm * (1.0 - stack_.inner_product_error());
@@ -313,10 +304,7 @@ PassFindings AllPairsPass::run(const WorkingSet& working, const std::vector<doub
         start_tile(working, begin, tile);
         bound.begin_tile(tile.first, tile.width, tile.reconstruction.data());
         check_working_pairs(tile, bound);
-        for (int panel = 0; panel < panels_.count(); ++panel) {
-            score(tile, panel);
-            scan(tile, panel, bound);
-        }
+        for_each_scored_panel(tile, [&](const ScoredPanel& panel) { scan(tile, panel, bound); });
         bound.end_tile();
     }
     const double lower_bound = finish(bound);

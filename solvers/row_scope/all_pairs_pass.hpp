@@ -10,6 +10,8 @@
 #include "solvers/row_scope/working_set_model.hpp"
 #include "solvers/subspace/dual_bound.hpp"
 #include "solvers/subspace/feature_stack.hpp"
+#include "solvers/subspace/pair_scorer.hpp"
+#include "solvers/subspace/panel_columns.hpp"
 #include "solvers/subspace/solve_result.hpp"
 #include "solvers/subspace/subspace_problem.hpp"
 #include "src/parallel/comm.hpp"
@@ -23,7 +25,7 @@ struct PassFindings {
     std::int64_t entering_pairs = 0;         ///< all ranks
 };
 
-/// Scores are matrix products in single precision (pair_score_kernel.hpp). Pairs too close to their limit for
+/// Scores are matrix products in single precision (pair_scorer.hpp). Pairs too close to their limit for
 /// that are computed again in double precision, so that the bound holds under rounding. Nothing of size N^2
 /// is stored.
 ///
@@ -33,7 +35,8 @@ class AllPairsPass {
     static constexpr int kept = 8;
 
     /// Collective.
-    AllPairsPass(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack);
+    AllPairsPass(const Comm& comm, const SubspaceProblem& problem, const FeatureStack& stack,
+                 const PairScorerFactory& scorer);
 
     ~AllPairsPass();
     AllPairsPass(const AllPairsPass&) = delete;
@@ -54,6 +57,7 @@ class AllPairsPass {
         std::int64_t place = -1;  ///< the column of a row's candidate, or the row of a column's
     };
     struct Tile;
+    struct ScoredPanel;
 
     static bool better(const Candidate& a, const Candidate& b);
     static void insert(Candidate* best, const Candidate& candidate);
@@ -62,11 +66,12 @@ class AllPairsPass {
     void start(const WorkingSet& working, const std::vector<double>& row_sums);
     void start_tile(const WorkingSet& working, std::int64_t begin, Tile& tile) const;
     void set_column(Tile& tile, int column) const;
-    void score(Tile& tile, int panel) const;
+    template <class Look>
+    void for_each_scored_panel(Tile& tile, const Look& look);
     void check_working_pairs(const Tile& tile, PaperDualBound& bound);
-    void look_first(Tile& tile, int panel);
-    void scan(Tile& tile, int panel, PaperDualBound& bound);
-    void inspect_pair(const Tile& tile, int column, int row, PaperDualBound& bound);
+    void look_first(Tile& tile, const ScoredPanel& panel);
+    void scan(Tile& tile, const ScoredPanel& panel, PaperDualBound& bound);
+    void inspect_pair(const Tile& tile, const ScoredPanel& panel, int column, int row, PaperDualBound& bound);
     void exact_scores(const Tile& tile, int column, int row);
     void keep(const Tile& tile, int column, int row, double norm);
     void merge_row_candidates();
@@ -80,6 +85,7 @@ class AllPairsPass {
     float limit2_;     ///< alpha^2, rounded down: a square above it may be a violation
     double rounding_;  ///< of a score, relative to its factors' norms
     PanelColumns panels_;
+    std::unique_ptr<PairScorer> scorer_;
     std::vector<double> largest_norm_;  ///< per feature
     std::vector<double> row_sums_;
     std::size_t padded_rows_;        ///< in whole panels

@@ -171,7 +171,7 @@ WorkingSetSolve::WorkingSetSolve(const Comm& comm, const SubspaceProblem& proble
       stack_(stack_features(problem)),
       working_(empty_set(comm, stack_)),
       prices_(working_.fits.size() * at(stack_.features), 0.0),
-      pass_(comm, problem, stack_),
+      pass_(comm, problem, stack_, options.pair_scorer),
       rule_(comm, options, stack_.squared_norm),
       objective_(stack_.squared_norm) {}
 

@@ -5,10 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/numeric/pair_score_kernel.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
-#include "src/parallel/block_range.hpp"
 
 namespace coseg {
 
@@ -70,39 +68,6 @@ FeatureStack stack_features(const SubspaceProblem& problem) { return FeatureStac
 FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order) {
     const bool in_order = std::is_sorted(order.begin(), order.end());
     return FeatureStack(in_order ? problem.features : problem.features.chosen(comm, order));
-}
-
-PanelColumns::PanelColumns(const Comm& comm, const FeatureStack& stack)
-    : count_((stack.size + panel_rows - 1) / panel_rows),
-      dimension_(stack.dimension),
-      values_(comm, at(count_) * at(panel_rows * dimension_)) {
-    const Comm& here = values_.ranks().here();
-    const BlockRange part = block_range(count_, here.size(), here.rank());
-    for (std::int64_t panel = part.begin; panel < part.end; ++panel) {
-        float* rows = values_.data() + panel * panel_rows * dimension_;
-        const auto first = static_cast<Eigen::Index>(panel * panel_rows);
-        const Eigen::Index width = std::min<Eigen::Index>(panel_rows, stack.size - first);
-        for (Eigen::Index r = 0; r < width; ++r) {
-            for (Eigen::Index k = 0; k < dimension_; ++k)
-                rows[k * panel_rows + r] = static_cast<float>(stack.columns(k, first + r));
-        }
-    }
-    values_.fence();
-}
-
-const float* PanelColumns::rows(int panel, int offset) const noexcept {
-    return values_.data() + (static_cast<std::int64_t>(panel) * dimension_ + offset) * panel_rows;
-}
-
-SingleColumns::SingleColumns(const Comm& comm, const FeatureStack& stack)
-    : values_(comm, at(stack.columns.size())) {
-    const Comm& here = values_.ranks().here();
-    const BlockRange part = block_range(stack.size, here.size(), here.rank());
-    const std::int64_t begin = part.begin * stack.dimension;
-    const std::int64_t end = part.end * stack.dimension;
-    std::transform(stack.columns.data() + begin, stack.columns.data() + end, values_.data() + begin,
-                   [](double value) { return static_cast<float>(value); });
-    values_.fence();
 }
 
 }  // namespace coseg

@@ -10,7 +10,6 @@
 #include "src/base/index.hpp"
 #include "src/histograms/feature_matrices.hpp"
 #include "src/parallel/comm.hpp"
-#include "src/parallel/node_shared_array.hpp"
 
 namespace coseg {
 
@@ -41,32 +40,5 @@ FeatureStack stack_features(const SubspaceProblem& problem);
 /// Stacks the features so that column `order[i]` of the problem becomes column i. The features are copied
 /// unless the order changes nothing. Collective.
 FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order);
-
-/// The columns in single precision, in the panels of pair_score_kernel.hpp; the last panel is filled up with
-/// zeros. There is one copy on each node.
-class PanelColumns {
-  public:
-    /// Collective over `comm`, whose ranks all have this stack.
-    PanelColumns(const Comm& comm, const FeatureStack& stack);
-    [[nodiscard]] int count() const noexcept { return count_; }
-    /// The rows of a panel - columns of the stack - from the feature's value `offset` on.
-    [[nodiscard]] const float* rows(int panel, int offset) const noexcept;
-
-  private:
-    int count_;
-    int dimension_;
-    NodeSharedArray<float> values_;
-};
-
-/// D x N values in single precision, one copy on each node.
-class SingleColumns {
-  public:
-    /// Collective over `comm`, whose ranks all have this stack.
-    SingleColumns(const Comm& comm, const FeatureStack& stack);
-    [[nodiscard]] const float* data() const noexcept { return values_.data(); }
-
-  private:
-    NodeSharedArray<float> values_;
-};
 
 }  // namespace coseg

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "solvers/subspace/coefficients.hpp"
+#include "solvers/subspace/pair_scorer.hpp"
 #include "solvers/subspace/solve_history.hpp"
 #include "solvers/subspace/solver_checkpoint.hpp"
 #include "src/base/enum_names.hpp"
@@ -33,6 +34,7 @@ struct SolveOptions {
     /// empty.
     std::function<void(std::int64_t, std::int64_t)> progress = {};
     SolverCheckpoint* checkpoint = nullptr;  ///< keeps finished tiles or the iterate; none by default
+    PairScorerFactory pair_scorer = processor_pair_scorer;  ///< computes the scores of the passes over pairs
 };
 
 /// The cost of this rank's passes over all pairs.

@@ -42,7 +42,7 @@ TEST(DualBound, NeverExceedsTheOptimumFromAnyWeights) {
         const SolveResult best = solve_subspace(Comm(MPI_COMM_SELF), problem, {.gap = 1e-7});
         ASSERT_LE(best.relative_gap, 1e-7);
         const FeatureStack stack = stack_features(problem);
-        AllPairsPass pass(world, problem, stack);
+        AllPairsPass pass(world, problem, stack, processor_pair_scorer);
         for (const double size : {0.0, 1e-4, 0.01, 0.3}) {
             const WorkingSet working = random_working_set(world, stack, size, 62);
             std::vector<double> prices(working.fits.size() * 2, 0.0);
@@ -59,8 +59,8 @@ TEST(DualBound, TheFirstPassCertifiesThatNothingPays) {
     SubspaceProblem problem = random_subspace_problem(2, 9, 45, 5, 63);
     problem.beta = 2.1;  // unit columns: 2 x_i.x_j <= 2
     const FeatureStack stack = stack_features(problem);
-    const PassFindings found =
-        AllPairsPass(world, problem, stack).first(random_working_set(world, stack, 0.0, 64));
+    const PassFindings found = AllPairsPass(world, problem, stack, processor_pair_scorer)
+                                   .first(random_working_set(world, stack, 0.0, 64));
     EXPECT_EQ(found.entering_pairs, 0);
     EXPECT_NEAR(found.lower_bound, stack.squared_norm, 1e-12 * stack.squared_norm);
     EXPECT_LE(found.lower_bound, stack.squared_norm);

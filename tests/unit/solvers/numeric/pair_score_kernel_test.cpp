@@ -66,6 +66,24 @@ TEST(ScorePanel, IsTheProductAndTheSquaresOfItsExcess) {
     }
 }
 
+TEST(ScorePanel, GivesTheUsedRowsTheSameBits) {
+    Product whole = random_product();
+    whole.compute();
+    for (int used = 1; used <= panel_rows; ++used) {
+        Product part = random_product();
+        score_pairs({part.rows.data(), part.prices.data(), used},
+                    {part.duals.data(), part.errors.data(), groups}, depth,
+                    {part.scores.data(), part.squares.data()});
+        for (int place = 0; place < panel_rows * columns; ++place) {
+            const auto at = static_cast<std::size_t>(place);
+            if (place % panel_rows < used) {
+                ASSERT_EQ(part.scores[at], whole.scores[at]) << used << " " << place;
+                ASSERT_EQ(part.squares[at], whole.squares[at]) << used << " " << place;
+            }
+        }
+    }
+}
+
 TEST(ScorePanel, BitsDependOnARowAndAColumnAlone) {
     Product product = random_product();
     for (int k = 0; k < depth; ++k) {
