@@ -78,6 +78,7 @@ struct ReportPartCount {
 
 struct ReportPartition {
     std::vector<double> eigenvalues;  ///< of the chosen start's graph
+    std::vector<double> residuals;    ///< norms of the residuals of their eigenvectors
     std::vector<StartOutcome> starts;
     int chosen_start = 0;
     ReportPlaces places;
@@ -87,7 +88,8 @@ struct ReportPartition {
     AffinityPicture affinity;
     static constexpr auto fields() {
         return std::tuple(
-            field("eigenvalues", &ReportPartition::eigenvalues), field("starts", &ReportPartition::starts),
+            field("eigenvalues", &ReportPartition::eigenvalues),
+            field("residuals", &ReportPartition::residuals), field("starts", &ReportPartition::starts),
             field("chosen_start", &ReportPartition::chosen_start), field("places", &ReportPartition::places),
             field("part_area", &ReportPartition::part_area),
             field("part_count", &ReportPartition::part_count), field("unions", &ReportPartition::unions),

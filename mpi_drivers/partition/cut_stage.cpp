@@ -99,6 +99,7 @@ CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions
     cut.spectral.mesh_balance = options.mesh_balance;
     if (options.levels) cut.finest_level = std::max(24, 3 * options.parts);
     if (options.choose) {
+        cut.spectral.tolerance = search_tolerance;
         cut.starts = pooled_starts(options.parts);
         if (looks_at_positions(positions, options)) append(cut.starts, pooled_starts(options.parts, true));
     } else {

@@ -118,6 +118,7 @@ void add_strengths(ReportFeatures& report, const FeatureStrength& strength, cons
 ReportPartition report_partition(const CutResult& cut, const Eigen::MatrixXd& part_areas) {
     ReportPartition report;
     report.eigenvalues = cut.eigenvalues;
+    report.residuals = cut.residuals;
     report.starts = cut.starts;
     report.chosen_start = cut.chosen;
     report.places = {cut.frame.directions.colwise().normalized(), cut.frame.correlation};

@@ -17,11 +17,13 @@ struct PartitionCandidate {
     StartOutcome outcome;
     std::vector<int> labels;          ///< of patches: clusters, then parts
     std::vector<double> eigenvalues;  ///< as in CutResult
+    std::vector<double> residuals;    ///< likewise
     static constexpr auto fields() {
         return std::tuple(field("index", &PartitionCandidate::index),
                           field("outcome", &PartitionCandidate::outcome),
                           field("labels", &PartitionCandidate::labels),
-                          field("eigenvalues", &PartitionCandidate::eigenvalues));
+                          field("eigenvalues", &PartitionCandidate::eigenvalues),
+                          field("residuals", &PartitionCandidate::residuals));
     }
 };
 

@@ -172,6 +172,7 @@ CutResult described(const CutInput& input, int parts, const PositionFrame& frame
     result.chosen = static_cast<int>(found.chosen);
     result.part_of_patch = std::move(chosen.labels);
     result.eigenvalues = std::move(chosen.eigenvalues);
+    result.residuals = std::move(chosen.residuals);
     for (PartitionCandidate& r : found.candidates) result.starts.push_back(std::move(r.outcome));
     result.frame = frame;
     result.confidence = std::move(found.confidence);

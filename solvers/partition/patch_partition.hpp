@@ -46,6 +46,9 @@ struct CutInput {
     const FeatureMatrices* features = nullptr;
 };
 
+/// SpectralOptions::tolerance of eigenvectors whose clusters are only where a search begins.
+inline constexpr double search_tolerance = 1e-4;
+
 struct CutOptions {
     int parts = 2;  ///< K, 1 .. number of patches
     AffinityForm form = AffinityForm::links;

@@ -7,6 +7,7 @@
 #include "solvers/partition/part_shares.hpp"
 #include "solvers/spectral/normalized_cut.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/shared_counter.hpp"
 
 namespace coseg {
 
@@ -39,6 +40,7 @@ PartitionCandidate clustering(const GraphCut& cut, int index, const CutStart& st
     result.outcome.set_aside = static_cast<int>(std::count(result.labels.begin(), result.labels.end(), -1));
     result.outcome.unreached = attach_set_aside(result.labels, cut.within_mesh_affinity, largest);
     result.eigenvalues.assign(cut.embedding.eigenvalues.begin(), cut.embedding.eigenvalues.begin() + count);
+    result.residuals.assign(cut.embedding.residuals.begin(), cut.embedding.residuals.begin() + count);
     result.labels = renumbered(result.labels);
     return result;
 }
@@ -76,14 +78,15 @@ std::vector<PartitionCandidate> clusterings_of_graph(const Comm& group, const Cl
     return clusterings;
 }
 
-/// The clusterings that this rank goes on with. Graphs are dealt over the ranks, each cut by one of them.
-/// Collective.
+/// The clusterings that this rank goes on with. Each graph is cut by one rank, the next one by whichever rank
+/// is free: their eigenproblems take unlike times. Collective.
 std::vector<PartitionCandidate> dealt_clusterings(const Comm& comm, const ClusteringTask& task) {
     const Comm self(MPI_COMM_SELF);
     const std::vector<std::vector<int>> graphs = starts_by_graph(task.starts);
     std::vector<PartitionCandidate> mine;
+    SharedCounter counter(comm);
     agree(comm, [&] {
-        for (auto q = at(comm.rank()); q < graphs.size(); q += at(comm.size())) {
+        for (auto q = at(counter.next()); q < graphs.size(); q = at(counter.next())) {
             for (PartitionCandidate& r : clusterings_of_graph(self, task, graphs[q], VectorSums::plain)) {
                 mine.push_back(std::move(r));
             }

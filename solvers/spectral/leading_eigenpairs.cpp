@@ -71,7 +71,7 @@ void configure(EPS solver, const RowProduct& product, const EigenRequest& reques
     check(EPSSetType(solver, EPSKRYLOVSCHUR), "EPSSetType");
     check(EPSGetDS(solver, &small_problem), "EPSGetDS");
     check(DSSetParallel(small_problem, DS_PARALLEL_SYNCHRONIZED), "DSSetParallel");
-    basis = std::min<PetscInt>(petsc_int(product.size(), "patches"), std::max(2 * request.wanted + 40, 60));
+    basis = std::min<PetscInt>(petsc_int(product.size(), "patches"), std::max(2 * request.wanted + 16, 40));
     check(EPSSetDimensions(solver, request.wanted, basis, PETSC_DEFAULT), "EPSSetDimensions");
     check(EPSSetTolerances(solver, request.tolerance, request.max_restarts), "EPSSetTolerances");
     check(EPSMonitorSet(solver, note_progress, &progress, nullptr), "EPSMonitorSet");

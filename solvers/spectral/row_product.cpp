@@ -43,11 +43,12 @@ std::vector<char> asked_rows(const SparseRows& matrix, const GroupBalance& balan
 
 }  // namespace
 
-RowProduct::RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance, VectorSums sums)
+RowProduct::RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance, VectorSums sums,
+                       EntryPrecision precision)
     : size_(matrix.size), sums_(sums), vector_(row_vector(comm, size_, sums)) {
     number_columns(comm, balance, matrix);
     const PetscInt rows = petsc_int(matrix.local_rows(), "rows");
-    rows_ = SlicedRows(std::move(matrix));
+    rows_ = SlicedRows(std::move(matrix), precision);
     const PetscInt all = petsc_int(size_, "patches");
     check(MatCreateShell(comm.raw(), rows, rows, all, all, this, shell_.out()), "MatCreateShell");
     check(MatShellSetOperation(shell_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)),

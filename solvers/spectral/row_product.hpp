@@ -29,7 +29,7 @@ class RowProduct {
     /// Rows owned as SparseRows says; their columns are numbered anew inside. Collective. Throws
     /// Error(internal).
     RowProduct(const Comm& comm, SparseRows matrix, const GroupBalance& balance = {},
-               VectorSums sums = VectorSums::exact);
+               VectorSums sums = VectorSums::exact, EntryPrecision precision = EntryPrecision::full);
     RowProduct(const RowProduct&) = delete;
     RowProduct& operator=(const RowProduct&) = delete;
     ~RowProduct() = default;

@@ -41,7 +41,7 @@ void SlicedRows::sort_windows(const SparseRows& matrix) {
     row_.resize((row_.size() + slice_lanes - 1) / slice_lanes * slice_lanes, -1);
 }
 
-SlicedRows::SlicedRows(SparseRows matrix) {
+SlicedRows::SlicedRows(SparseRows matrix, EntryPrecision precision) {
     sort_windows(matrix);
     const auto size = at(offsets_.back());
     // One array after the other is copied and freed: large matrices are not held twice.
@@ -49,18 +49,34 @@ SlicedRows::SlicedRows(SparseRows matrix) {
     for_each_entry(matrix, row_, offsets_,
                    [&](std::size_t k, std::size_t to) { columns_[to] = matrix.columns[k]; });
     matrix.columns = {};
+    if (precision == EntryPrecision::single) {
+        single_values_.assign(size, 0.0F);
+        for_each_entry(matrix, row_, offsets_, [&](std::size_t k, std::size_t to) {
+            single_values_[to] = static_cast<float>(matrix.values[k]);
+        });
+        return;
+    }
     values_.assign(size, 0.0);
     for_each_entry(matrix, row_, offsets_,
                    [&](std::size_t k, std::size_t to) { values_[to] = matrix.values[k]; });
 }
 
 void SlicedRows::multiply(const double* x, double* y) const {
+    if (single_values_.empty()) {
+        multiply_values(values_.data(), x, y);
+    } else {
+        multiply_values(single_values_.data(), x, y);
+    }
+}
+
+template <class Value>
+void SlicedRows::multiply_values(const Value* value, const double* x, double* y) const {
     const int* column = columns_.data();
-    const double* value = values_.data();
     for (std::size_t s = 0; s + 1 < offsets_.size(); ++s) {
         double sum[slice_lanes] = {};
         for (std::int64_t k = offsets_[s]; k < offsets_[s + 1]; k += slice_rows) {
-            for (std::size_t i = 0; i < slice_lanes; ++i) sum[i] += value[i] * x[column[i]];
+            for (std::size_t i = 0; i < slice_lanes; ++i)
+                sum[i] += static_cast<double>(value[i]) * x[column[i]];
             column += slice_lanes;
             value += slice_lanes;
         }

@@ -175,18 +175,30 @@ Eigen::VectorXd start_vector(const CutOperator& op, std::uint64_t trial) {
     return start;
 }
 
+/// Whether the complement of the pairs holds a larger eigenvalue than their smallest. A coarse look settles it
+/// where that is out of reach of its residual; the next one starts from what it found. The error of an eigenvalue
+/// is of the order of the squared residual.
+bool misses_a_pair(const Comm& comm, const RowProduct& product, const EigenPairs& pairs,
+                   Eigen::VectorXd start, EigenRequest request) {
+    const double fine = request.tolerance;
+    const double least = pairs.values.back() + 1e-8;
+    for (const double coarse : {1e-3, 1e-5}) {
+        request.tolerance = std::max(fine, coarse);
+        const EigenPairs look = leading_eigenpairs(comm, product, pairs, start, request);
+        if (look.values[0] + look.residuals[0] <= least) return false;
+        if (look.values[0] > least) return true;
+        start = look.vectors.col(0);
+    }
+    return false;
+}
+
 /// Replaces the smallest pairs by larger ones that the first solve missed, until the complement has none.
-/// This search uses a coarse tolerance, which halves the work: the error of an eigenvalue is of the order of
-/// the squared residual.
 EigenPairs with_missed_pairs(const Comm& comm, const CutOperator& op, const RowProduct& product,
                              const EigenRequest& fine, EigenPairs pairs) {
-    EigenRequest coarse = fine;
-    coarse.tolerance = std::max(fine.tolerance, 1e-5);
     const std::size_t count = pairs.values.size();
     for (std::size_t round = 0; round < count; ++round) {
         const Eigen::VectorXd start = start_vector(op, round + 1);
-        const EigenPairs look = leading_eigenpairs(comm, product, pairs, start, coarse);
-        if (look.values[0] <= pairs.values.back() + 1e-8) break;
+        if (!misses_a_pair(comm, product, pairs, start, fine)) break;
         const EigenPairs next = leading_eigenpairs(comm, product, pairs, start, fine);
         pairs.append(next.values[0], next.residuals[0], next.vectors.col(0));
         pairs = sorted_descending(pairs);
@@ -204,6 +216,10 @@ GroupBalance mesh_balance(const CutOperator& op, const SpectralOptions& options,
     return {options.mesh_balance, mesh_of, mesh_indicators(op, mesh_of)};
 }
 
+/// Residuals from which on the operator's entries need no more than single precision: rounding them changes the
+/// operator, and each eigenvalue, by less than 1e-7.
+constexpr double single_tolerance = 1e-5;
+
 /// Takes the operator's matrix.
 EigenPairs sparse_eigenpairs(const Comm& comm, CutOperator& op, int count, const SpectralOptions& options,
                              const GroupBalance& balance) {
@@ -211,7 +227,9 @@ EigenPairs sparse_eigenpairs(const Comm& comm, CutOperator& op, int count, const
     EigenRequest request{count - static_cast<int>(pairs.values.size()), options.tolerance,
                          options.max_restarts};
     if (request.wanted <= 0) return pairs;
-    const RowProduct product(comm, std::move(op.matrix), balance, options.sums);
+    const auto precision =
+        options.tolerance >= single_tolerance ? EntryPrecision::single : EntryPrecision::full;
+    const RowProduct product(comm, std::move(op.matrix), balance, options.sums, precision);
     const EigenPairs found = leading_eigenpairs(comm, product, pairs, start_vector(op, 0), request);
     for (std::size_t k = 0; k < found.values.size(); ++k)
         pairs.append(found.values[k], found.residuals[k], found.vectors.col(static_cast<Eigen::Index>(k)));

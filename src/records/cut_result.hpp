@@ -29,6 +29,8 @@ struct CutResult {
     std::vector<StartOutcome> starts;  ///< in the order in which they were asked for
     /// of the chosen start's graph, descending, one for each of its clusters.
     std::vector<double> eigenvalues;
+    /// norms of the residuals of their eigenvectors, as the solver estimates them; 0 where they are known.
+    std::vector<double> residuals;
     PositionFrame frame;  ///< of the base; without correlation where no start is placed
     int chosen = 0;       ///< the start taken: best_partition of those with the most parts
     static constexpr auto fields() {
@@ -39,7 +41,8 @@ struct CutResult {
                           field("part_counts", &CutResult::part_counts),
                           field("meshes_with_part", &CutResult::meshes_with_part),
                           field("starts", &CutResult::starts), field("eigenvalues", &CutResult::eigenvalues),
-                          field("positions", &CutResult::frame), field("chosen", &CutResult::chosen));
+                          field("residuals", &CutResult::residuals), field("positions", &CutResult::frame),
+                          field("chosen", &CutResult::chosen));
     }
 };
 

@@ -121,6 +121,30 @@ TEST(NormalizedCut, FindsBlocksOnAnyNumberOfRanks) {
     }
 }
 
+/// Residuals of 1e-4 and entries in single precision: eigenvalues are wrong by the square of the residual
+/// over the gap to the others, and all copies of the double ones are still found.
+TEST(NormalizedCut, WithCoarseVectorsKeepsEigenvaluesAndBlocks) {
+    const Comm comm(MPI_COMM_WORLD);
+    SpectralOptions coarse;
+    coarse.tolerance = 1e-4;
+    const SparseRows blocks = graph(60 * 5, testing_graphs::block_edges(5, 60, 0.2, 42));
+    const SpectralEmbedding fine = embed(comm, blocks, 5, 5);
+    const SpectralEmbedding rough = spectral_embedding(comm, owned_rows(comm, blocks), 5, 5, coarse);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(rough.eigenvalues[k], fine.eigenvalues[k], 1e-6);
+    EXPECT_LT(residual(blocks, rough, 0.0), 0.1);
+    EXPECT_GT(residual(blocks, rough, 0.0), residual(blocks, fine, 0.0));
+    std::vector<int> truth;
+    for (int i = 0; i < 300; ++i) truth.push_back(i % 5);
+    EXPECT_TRUE(same_partition(cut_embedding(rough, 5, 300), truth));
+
+    const SparseRows cycle = graph(300, testing_graphs::cycle_edges(300));
+    const SpectralEmbedding ring = spectral_embedding(comm, owned_rows(comm, cycle), 2, 7, coarse);
+    for (int k = 0; k < 7; ++k) {
+        const double expected = std::cos(2.0 * std::numbers::pi * ((k + 1) / 2) / 300);
+        EXPECT_NEAR(ring.eigenvalues[static_cast<std::size_t>(k)], expected, 1e-5);
+    }
+}
+
 TEST(NormalizedCut, TheOffsetOfThePapersCodeChangesTheOperatorAsWritten) {
     // (S + .5 I) y = value (D + I) y; on a regular graph of degree d the largest is (d + .5) / (d + 1).
     const Comm comm(MPI_COMM_WORLD);

@@ -52,6 +52,17 @@ TEST_P(SlicedRowsOf, HaveTheProductOfPlainRowsToTheLastBit) {
     EXPECT_EQ(y, plain_product(matrix, x));
 }
 
+TEST_P(SlicedRowsOf, InSinglePrecisionHaveTheProductOfRoundedEntries) {
+    const int columns = 61;
+    SparseRows matrix = uneven_rows(GetParam(), columns);
+    std::vector<double> x;
+    for (std::uint64_t i = 0; i < columns; ++i) x.push_back(uniform_of(hash_words({6, i})) - 0.5);
+    std::vector<double> y(static_cast<std::size_t>(GetParam()), std::numeric_limits<double>::quiet_NaN());
+    SlicedRows(matrix, EntryPrecision::single).multiply(x.data(), y.data());
+    for (double& value : matrix.values) value = static_cast<double>(static_cast<float>(value));
+    EXPECT_EQ(y, plain_product(matrix, x));
+}
+
 // Less than a slice, whole slices, less and more than a window.
 INSTANTIATE_TEST_SUITE_P(Sizes, SlicedRowsOf, testing::Values(1, 7, 8, 16, 29, 256, 257, 600));
 
