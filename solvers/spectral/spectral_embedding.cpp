@@ -175,9 +175,9 @@ Eigen::VectorXd start_vector(const CutOperator& op, std::uint64_t trial) {
     return start;
 }
 
-/// Whether the complement of the pairs holds a larger eigenvalue than their smallest. A coarse look settles it
-/// where that is out of reach of its residual; the next one starts from what it found. The error of an eigenvalue
-/// is of the order of the squared residual.
+/// Whether the complement of the pairs holds a larger eigenvalue than their smallest. A coarse look settles
+/// it where that is out of reach of its residual; the next one starts from what it found. The error of an
+/// eigenvalue is of the order of the squared residual.
 bool misses_a_pair(const Comm& comm, const RowProduct& product, const EigenPairs& pairs,
                    Eigen::VectorXd start, EigenRequest request) {
     const double fine = request.tolerance;
@@ -216,8 +216,8 @@ GroupBalance mesh_balance(const CutOperator& op, const SpectralOptions& options,
     return {options.mesh_balance, mesh_of, mesh_indicators(op, mesh_of)};
 }
 
-/// Residuals from which on the operator's entries need no more than single precision: rounding them changes the
-/// operator, and each eigenvalue, by less than 1e-7.
+/// Residuals from which on the operator's entries need no more than single precision: rounding them changes
+/// the operator, and each eigenvalue, by less than 1e-7.
 constexpr double single_tolerance = 1e-5;
 
 /// Takes the operator's matrix.

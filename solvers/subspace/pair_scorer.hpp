@@ -59,8 +59,8 @@ class PanelScores {
 /// in any order, with or without fused multiply-adds, so that its rounding error is at most
 /// eps (d_h + 2) ||x_h|| ||u_h|| with eps = 2^-24. The passes look again in double precision at what this
 /// leaves in doubt, and the certificate holds whoever computes. Where results are to have the same bytes on
-/// any number of ranks, all ranks use the same kind of scorer, and a score must not depend on what is computed
-/// beside it.
+/// any number of ranks, all ranks use the same kind of scorer, and a score must not depend on what is
+/// computed beside it.
 class PairScorer {
   public:
     PairScorer() = default;
