@@ -176,8 +176,9 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
     }
 }
 
-/// Scores the rows of all panels against the tile's columns, batch by batch, and looks at each panel while its
-/// scores are there. Squares have the error of a score on top, so that no violation is missed for rounding.
+/// Scores the rows of all panels against the tile's columns, batch by batch, and looks at each panel while
+/// its scores are there. Squares have the error of a score on top, so that no violation is missed for
+/// rounding.
 template <class Look>
 void AllPairsPass::for_each_scored_panel(Tile& tile, const Look& look) {
     scorer_->set_columns(tile.duals);

@@ -10,8 +10,8 @@ namespace coseg {
 
 /// The entries of a matrix in memory.
 enum class EntryPrecision {
-    full,  ///< double
-    single,  ///< rounded to float: a product with a matrix beyond the cache takes little more than half the time
+    full,    ///< double
+    single,  ///< rounded to float, which is faster where the matrix is larger than the cache
 };
 
 /// Rows of a matrix in slices of eight, whose entries alternate: first the first entry of each of the eight
