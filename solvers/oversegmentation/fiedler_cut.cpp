@@ -43,7 +43,8 @@ class InverseLaplacian {
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;
 };
 
-/// The lower triangle of the Laplacian of the first `nodes` nodes: edges to others count for the diagonal only.
+/// The lower triangle of the Laplacian of the first `nodes` nodes: edges to others count for the diagonal
+/// only.
 Eigen::SparseMatrix<double> lower_laplacian(const WeightedGraph& graph, int nodes) {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(graph.weights.size() / 2 + graph.mass.size());

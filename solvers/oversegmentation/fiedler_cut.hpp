@@ -37,10 +37,10 @@ struct FiedlerPair {
 /// Source: Amestoy, Davis and Duff 1996 (approximate minimum degree), as Eigen has it.
 std::vector<int> elimination_places(const WeightedGraph& graph);
 
-/// The graph must be connected and have at least two nodes. It is fast where nodes are numbered in an order of
-/// elimination with little fill. Graphs of more than a few dozen nodes are solved
-/// by Lanczos iterations, others densely. Where Lanczos does not converge, the dense solve follows. Where
-/// that fails too, `vector` is empty.
+/// The graph must be connected and have at least two nodes. It is fast where nodes are numbered in an order
+/// of elimination with little fill. Graphs of more than a few dozen nodes are solved by Lanczos iterations,
+/// others densely. Where Lanczos does not converge, the dense solve follows. Where that fails too, `vector`
+/// is empty.
 FiedlerPair fiedler_pair(const WeightedGraph& graph);
 
 /// The best cut among the prefixes of the nodes sorted by the Fiedler vector: the one with the smallest

@@ -23,6 +23,11 @@ namespace {
 // Lengths and areas below this share of their mean count as that much: degenerate faces stay in the graph,
 // connected and with a finite cut / area.
 constexpr double smallest_share = 1e-6;
+// Regions below this share of the mean area of a patch are crumbs: they are cut off, as their borders are
+// short, but are no patches, and are not cut any further.
+constexpr double crumb_share = 0.05;
+// Cuts for each patch asked for, at most: shapes of nothing but crumbs are left with them.
+constexpr int most_cuts = 4;
 
 double edge_noise(const DualEdge& edge, std::uint64_t seed) {
     const auto a = static_cast<std::uint64_t>(edge.is_virtual ? edge.face_a : edge.vertex_a);
@@ -54,12 +59,15 @@ WeightedGraph noisy_face_graph(const FaceGeometry& geometry, const DualGraph& gr
 /// A connected set of nodes with its best cut, found once and kept until the region is the next to be cut.
 struct Region {
     std::vector<int> nodes;  // ascending
-    TwoWayCut cut;           // of induced_subgraph(nodes); value infinite for a single node
+    bool is_crumb = false;
+    TwoWayCut cut;  // of induced_subgraph(nodes); value infinite for a crumb and for a single node
 };
 
-Region region_of(const WeightedGraph& graph, std::vector<int> nodes) {
-    Region region{.nodes = std::move(nodes), .cut = {}};
-    if (region.nodes.size() > 1) {
+Region region_of(const WeightedGraph& graph, std::vector<int> nodes, double crumb) {
+    double mass = 0.0;
+    for (const int v : nodes) mass += graph.mass[at(v)];
+    Region region{.nodes = std::move(nodes), .is_crumb = mass < crumb, .cut = {}};
+    if (region.nodes.size() > 1 && !region.is_crumb) {
         region.cut = fiedler_cut(induced_subgraph(graph, region.nodes));
     } else {
         region.cut.value = std::numeric_limits<double>::infinity();
@@ -86,40 +94,91 @@ std::vector<std::vector<int>> pieces_of_cut(const WeightedGraph& graph, const Re
     return pieces;
 }
 
-/// Region number per node: at least min(target, nodes) regions, all connected.
-std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
-    std::vector<Region> regions;
-    const auto later = [&](int a, int b) {
-        const Region& x = regions[at(a)];
-        const Region& y = regions[at(b)];
-        return std::tie(x.cut.value, x.nodes.front()) > std::tie(y.cut.value, y.nodes.front());
-    };
-    std::vector<std::vector<int>> pieces;
-    const std::vector<int> component = connected_components(graph);
-    for (int v = 0; v < graph.node_count(); ++v) {
-        const auto c = at(component[at(v)]);
-        if (c == pieces.size()) pieces.emplace_back();
-        pieces[c].push_back(v);
+/// Cuts a graph into connected regions, the one with the best cut first.
+class RecursiveCuts {
+  public:
+    explicit RecursiveCuts(const WeightedGraph& graph) : graph_(graph) {
+        std::vector<std::vector<int>> pieces;
+        const std::vector<int> component = connected_components(graph);
+        for (int v = 0; v < graph.node_count(); ++v) {
+            const auto c = at(component[at(v)]);
+            if (c == pieces.size()) pieces.emplace_back();
+            pieces[c].push_back(v);
+        }
+        waiting_ = std::move(pieces);
     }
-    std::priority_queue<int, std::vector<int>, decltype(later)> next(later);
-    const auto add = [&](std::vector<int> nodes) {
-        regions.push_back(region_of(graph, std::move(nodes)));
-        next.push(static_cast<int>(regions.size()) - 1);
-    };
-    for (auto& nodes : pieces) add(std::move(nodes));
-    while (next.size() < at(std::min(target, graph.node_count()))) {
-        const auto chosen = at(next.top());
-        next.pop();
-        pieces = pieces_of_cut(graph, regions[chosen]);
-        for (auto& nodes : pieces) add(std::move(nodes));
-    }
-    std::vector<int> region_of_node(graph.mass.size(), -1);
-    for (; !next.empty(); next.pop()) {
-        for (const int v : regions[at(next.top())].nodes) {
-            region_of_node[at(v)] = next.top();
+
+    /// Goes on until there are `target` regions that are no crumbs, or nothing is left to cut, or `most` cuts
+    /// have been made.
+    void cut(int target, double crumb, int most) {
+        take_up(crumb);
+        for (int cuts = 0; cuts < most && whole_ < target && can_cut(); ++cuts) {
+            Region& chosen = regions_[at(next_.top())];
+            next_.pop();
+            --whole_;
+            waiting_ = pieces_of_cut(graph_, chosen);
+            take_up(crumb);
         }
     }
-    return region_of_node;
+
+    /// From now on crumbs are regions like others.
+    void forget_crumbs() {
+        for (; !next_.empty(); next_.pop()) waiting_.push_back(std::move(regions_[at(next_.top())].nodes));
+        regions_.clear();
+        whole_ = 0;
+    }
+
+    [[nodiscard]] int count() const { return static_cast<int>(next_.size()); }
+
+    /// Of each node.
+    [[nodiscard]] std::vector<int> regions() && {
+        std::vector<int> region_of_node(graph_.mass.size(), -1);
+        for (; !next_.empty(); next_.pop()) {
+            for (const int v : regions_[at(next_.top())].nodes) region_of_node[at(v)] = next_.top();
+        }
+        return region_of_node;
+    }
+
+  private:
+    struct Later {
+        const std::vector<Region>& regions;
+        bool operator()(int a, int b) const {
+            const Region& x = regions[at(a)];
+            const Region& y = regions[at(b)];
+            return std::tie(x.cut.value, x.nodes.front()) > std::tie(y.cut.value, y.nodes.front());
+        }
+    };
+
+    void take_up(double crumb) {
+        for (std::vector<int>& nodes : waiting_) {
+            regions_.push_back(region_of(graph_, std::move(nodes), crumb));
+            whole_ += regions_.back().is_crumb ? 0 : 1;
+            next_.push(static_cast<int>(regions_.size()) - 1);
+        }
+        waiting_.clear();
+    }
+
+    [[nodiscard]] bool can_cut() const { return std::isfinite(regions_[at(next_.top())].cut.value); }
+
+    const WeightedGraph& graph_;
+    std::vector<std::vector<int>> waiting_;
+    std::vector<Region> regions_;
+    std::priority_queue<int, std::vector<int>, Later> next_{Later{regions_}};
+    int whole_ = 0;  ///< regions in the queue that are no crumbs
+};
+
+/// Region number per node: at least min(target, nodes) regions, all connected, of which `target` are no
+/// crumbs where the cuts suffice.
+std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
+    const double total = std::accumulate(graph.mass.begin(), graph.mass.end(), 0.0);
+    const int least = std::min(target, graph.node_count());
+    RecursiveCuts cuts(graph);
+    cuts.cut(target, crumb_share * total / target, most_cuts * target);
+    if (cuts.count() < least) {
+        cuts.forget_crumbs();
+        cuts.cut(least, 0.0, least);
+    }
+    return std::move(cuts).regions();
 }
 
 /// Numbers 0.. by first occurrence; returns how many there are.

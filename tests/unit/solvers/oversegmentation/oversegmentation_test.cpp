@@ -67,6 +67,28 @@ TEST(Oversegmentation, FiftyConnectedPatchesOnSimpleShapes) {
     }
 }
 
+/// A sphere with dust on it: 60 spheres of .01 of its radius, .6 % of its area together.
+TEST(Oversegmentation, CrumbsAreNoPatches) {
+    TriMesh mesh = test::sphere(4);
+    SeededStream random(3);
+    for (int k = 0; k < 60; ++k) {
+        TriMesh crumb = test::sphere(1, 0.01);
+        Eigen::Vector3d place;
+        for (double& x : place) x = random.uniform(-1.0, 1.0);
+        place *= 1.02 / place.norm();
+        crumb.vertices.colwise() += place;
+        mesh = test::disjoint_union(mesh, crumb);
+    }
+    const Prepared p = prepared(std::move(mesh));
+    const std::vector<int> patch = oversegment(p.geometry, p.graph, {}, 7);
+    expect_valid(patch, p.graph, 50);
+    std::vector<double> area(50, 0.0);
+    for (std::size_t f = 0; f < patch.size(); ++f)
+        area[static_cast<std::size_t>(patch[f])] += p.geometry.area[static_cast<Eigen::Index>(f)];
+    EXPECT_GT(*std::min_element(area.begin(), area.end()), 0.05 * p.geometry.total_area / 50);
+    EXPECT_LT(*std::max_element(area.begin(), area.end()), 3.0 * p.geometry.total_area / 50);
+}
+
 TEST(Oversegmentation, AnyNumberOfPatchesIsMetExactly) {
     const Prepared p = prepared(test::sphere(2));  // 320 faces
     for (const int patches : {1, 2, 3, 49, 200, 319, 320}) {
