@@ -114,8 +114,8 @@ MeshScopePass::Survey MeshScopePass::start_survey(const PassColumn& column, doub
         const double terms = (stack_.rows_of(h) + 6) * largest_norm_[at(h)];
         squares += dual2 * terms * terms;
     }
-    // gamma_n of an inner product of n terms for each feature, two roundings of its factors and slack; beta is
-    // rounded too.
+    // gamma_n of an inner product of n terms for each feature, two roundings of its factors and slack; beta
+    // is rounded too.
     survey.absolute_error = rounding * (std::sqrt(squares) + 4.0 * penalties_.beta) * (1.0 + 1e-3);
     survey.relative_error = rounding * (stack_.features + 6);
     return survey;

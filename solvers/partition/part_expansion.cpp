@@ -16,6 +16,7 @@ namespace {
 
 /// A part must gain this much by an expansion; below it is rounding.
 constexpr double least_gain = 1e-9;
+constexpr int climb_rounds = 15;
 /// Passes over all parts in a mesh. A third one hardly ever changes a patch.
 constexpr int sweeps = 2;
 
@@ -28,9 +29,11 @@ class MeshExpansion {
         labels_.assign(labels.begin() + patches.begin, labels.begin() + patches.end);
     }
 
-    std::vector<int> run(const PartGains& gains, const std::vector<int>& all_labels) {
+    std::vector<int> run(const PartGains& gains, const std::vector<int>& all_labels, double inertia) {
         gains_ = gains.of_mesh({first_, first_ + count()});
         if (known_.gain.size() > 0) gains_ += known_.gain.middleCols(first_, count());
+        for (Eigen::Index i = 0; i < count() && inertia > 0.0; ++i)
+            gains_(labels_[at(i)], i) += inertia * objective_.share[at(first_ + i)] / objective_.meshes;
         find_ties(all_labels);
         for (int sweep = 0; sweep < sweeps; ++sweep) {
             bool changed = false;
@@ -116,7 +119,7 @@ class MeshExpansion {
 }  // namespace
 
 std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& objective, const KnownParts& known,
-                              const std::vector<int>& labels, int parts) {
+                              const std::vector<int>& labels, int parts, double inertia) {
     const PartGains gains(objective, labels, parts);
     const std::vector<BlockRange> patches = patches_of_meshes(objective);
     const BlockRange mine = block_range(objective.meshes, comm.size(), comm.rank());
@@ -124,7 +127,7 @@ std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& object
     agree(comm, [&] {
         for (auto m = mine.begin; m < mine.end; ++m) {
             const std::vector<int> of_mesh =
-                MeshExpansion(objective, known, labels, patches[at(m)]).run(gains, labels);
+                MeshExpansion(objective, known, labels, patches[at(m)]).run(gains, labels, inertia);
             local.insert(local.end(), of_mesh.begin(), of_mesh.end());
         }
     });
@@ -133,14 +136,17 @@ std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& object
 
 std::vector<int> climb_by_expansion(const Comm& comm, const PartitionObjective& objective,
                                     const KnownParts& known, std::vector<int> labels, int parts,
-                                    const std::function<double(const std::vector<int>&)>& score, int rounds) {
+                                    const std::function<double(const std::vector<int>&)>& score,
+                                    std::span<const double> inertias) {
     double best = score(labels);
-    for (int round = 0; round < rounds; ++round) {
-        std::vector<int> next = expand_parts(comm, objective, known, labels, parts);
-        const double value = score(next);
-        if (!(value > best + least_gain)) break;
-        best = value;
-        labels = std::move(next);
+    for (const double inertia : inertias) {
+        for (int round = 0; round < climb_rounds; ++round) {
+            std::vector<int> next = expand_parts(comm, objective, known, labels, parts, inertia);
+            const double value = score(next);
+            if (!(value > best + least_gain)) break;
+            best = value;
+            labels = std::move(next);
+        }
     }
     return labels;
 }

@@ -3,7 +3,9 @@
 // part together, found by minimum cuts.
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "solvers/partition/partition_objective.hpp"
@@ -22,17 +24,24 @@ struct KnownParts {
 /// them gains of single patches. With these gains and the ties, each mesh then lets one part after the other
 /// expand: the set of patches that goes over to the part is the best of all sets. Every rank works on a block
 /// of the meshes; the result has the same bytes on any number of ranks. As derivatives are no differences,
-/// the objective may fall; the caller compares. labels: 0 .. parts-1 of each patch. Collective.
+/// the objective may fall; the caller compares. With `inertia` a patch gains so much by keeping its part,
+/// times its share of the area of all meshes: changes stay near the labels at which the derivatives were
+/// taken.
+/// labels: 0 .. parts-1 of each patch. Collective.
 ///
 /// Source: Boykov, Veksler and Zabih 2001, "Fast approximate energy minimization via graph cuts" (expansion).
 std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& objective, const KnownParts& known,
-                              const std::vector<int>& labels, int parts);
+                              const std::vector<int>& labels, int parts, double inertia = 0.0);
 
-/// Rounds of expand_parts as long as `score`, which is the same function on all ranks, rises; at most
-/// `rounds`. Collective.
+/// The inertias of a climb from labels that were found by other moves.
+inline constexpr std::array falling_inertias{20.0, 10.0, 5.0, 0.0};
+inline constexpr std::array no_inertia{0.0};
+
+/// Rounds of expand_parts with the first of the inertias as long as `score`, which is the same function on
+/// all ranks, rises, at most 15; then with the next. Collective.
 std::vector<int> climb_by_expansion(const Comm& comm, const PartitionObjective& objective,
                                     const KnownParts& known, std::vector<int> labels, int parts,
                                     const std::function<double(const std::vector<int>&)>& score,
-                                    int rounds = 15);
+                                    std::span<const double> inertias = no_inertia);
 
 }  // namespace coseg

@@ -153,7 +153,8 @@ PartitionCandidate expanded(const Comm& comm, const SearchTask& task, PartitionC
             tried.parts_found < outcome.outcome.parts_found || tried.degenerate > outcome.outcome.degenerate;
         return is_worse ? -std::numeric_limits<double>::infinity() : tried.score;
     };
-    outcome.labels = climb_by_expansion(comm, task.objective, {}, outcome.labels, task.parts, score);
+    outcome.labels =
+        climb_by_expansion(comm, task.objective, {}, outcome.labels, task.parts, score, falling_inertias);
     describe_outcome(task, outcome);
     return outcome;
 }

@@ -97,7 +97,7 @@ TEST(PartExpansion, LeavesFixedPatchesAndIsBestForTheOthers) {
 TEST(PartExpansion, NeverLowersTheScoreThatItClimbs) {
     const Comm comm(MPI_COMM_WORLD);
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        const TiedPatches patches(3, 12, 4, seed);
+        TiedPatches patches(3, 12, 4, seed);
         std::vector<int> start;
         SeededStream random(seed);
         for (int i = 0; i < 36; ++i) start.push_back(static_cast<int>(random.uniform() * 4.0));
@@ -111,6 +111,12 @@ TEST(PartExpansion, NeverLowersTheScoreThatItClimbs) {
         const std::vector<int> again =
             climb_by_expansion(comm, patches.objective, patches.known, found, 4, score);
         EXPECT_EQ(again, found) << "there is nothing more to gain";
+        patches.objective.share.assign(36, 1.0 / 12.0);
+        const std::vector<int> slowly =
+            climb_by_expansion(comm, patches.objective, patches.known, start, 4, score, falling_inertias);
+        EXPECT_GT(score(slowly), score(start));
+        EXPECT_EQ(climb_by_expansion(comm, patches.objective, patches.known, slowly, 4, score), slowly)
+            << "the last rounds have no inertia";
     }
 }
 
@@ -126,6 +132,11 @@ TEST(PartExpansion, ASmallPatchGoesWhereItExplainsMost) {
     objective.share = {0.25, 0.25, 0.25, 0.25, 0.0};
     objective.meshes = 1;
     EXPECT_EQ(expand_parts(comm, objective, {}, {0, 0, 1, 1, 1}, 2), (std::vector<int>{0, 0, 1, 1, 0}));
+    objective.share.back() = 0.1;
+    EXPECT_EQ(expand_parts(comm, objective, {}, {0, 0, 1, 1, 1}, 2, 1.0), (std::vector<int>{0, 0, 1, 1, 1}))
+        << "with inertia it stays";
+    EXPECT_EQ(expand_parts(comm, objective, {}, {0, 0, 1, 1, 1}, 2, 1e-9), (std::vector<int>{0, 0, 1, 1, 0}));
+    objective.share.back() = 0.0;
     objective.deviations(0, 4) = -1e-4F;
     EXPECT_EQ(expand_parts(comm, objective, {}, {0, 0, 1, 1, 0}, 2), (std::vector<int>{0, 0, 1, 1, 1}));
 }
