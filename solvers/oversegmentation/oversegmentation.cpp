@@ -23,9 +23,11 @@ namespace {
 // Lengths and areas below this share of their mean count as that much: degenerate faces stay in the graph,
 // connected and with a finite cut / area.
 constexpr double smallest_share = 1e-6;
-// Regions below this share of the mean area of a patch are crumbs: they are cut off, as their borders are
-// short, but are no patches, and are not cut any further.
+// Regions below this share of the mean area of a patch are crumbs, which are cut off first, as their borders are
+// short. They do not count as patches where they use up so many that one is left with more than `large_patch` times
+// the mean area.
 constexpr double crumb_share = 0.05;
+constexpr double large_patch = 8.0;
 // Cuts for each patch asked for, at most: shapes of nothing but crumbs are left with them.
 constexpr int most_cuts = 4;
 
@@ -59,6 +61,7 @@ WeightedGraph noisy_face_graph(const FaceGeometry& geometry, const DualGraph& gr
 /// A connected set of nodes with its best cut, found once and kept until the region is the next to be cut.
 struct Region {
     std::vector<int> nodes;  // ascending
+    double mass = 0.0;       // 0 once it is cut
     bool is_crumb = false;
     TwoWayCut cut;  // of induced_subgraph(nodes); value infinite for a crumb and for a single node
 };
@@ -66,7 +69,7 @@ struct Region {
 Region region_of(const WeightedGraph& graph, std::vector<int> nodes, double crumb) {
     double mass = 0.0;
     for (const int v : nodes) mass += graph.mass[at(v)];
-    Region region{.nodes = std::move(nodes), .is_crumb = mass < crumb, .cut = {}};
+    Region region{.nodes = std::move(nodes), .mass = mass, .is_crumb = mass < crumb, .cut = {}};
     if (region.nodes.size() > 1 && !region.is_crumb) {
         region.cut = fiedler_cut(induced_subgraph(graph, region.nodes));
     } else {
@@ -108,14 +111,16 @@ class RecursiveCuts {
         waiting_ = std::move(pieces);
     }
 
-    /// Goes on until there are `target` regions that are no crumbs, or nothing is left to cut, or `most` cuts
-    /// have been made.
-    void cut(int target, double crumb, int most) {
+    /// Goes on until there are `target` regions of at most the mass `large`, or as many that are no crumbs, or
+    /// nothing is left to cut, or `most` cuts have been made.
+    void cut(int target, double crumb, double large, int most) {
         take_up(crumb);
-        for (int cuts = 0; cuts < most && whole_ < target && can_cut(); ++cuts) {
+        const auto is_done = [&] { return count() >= target && (whole_ >= target || largest() <= large); };
+        for (int cuts = 0; cuts < most && !is_done() && can_cut(); ++cuts) {
             Region& chosen = regions_[at(next_.top())];
             next_.pop();
             --whole_;
+            chosen.mass = 0.0;
             waiting_ = pieces_of_cut(graph_, chosen);
             take_up(crumb);
         }
@@ -158,6 +163,12 @@ class RecursiveCuts {
         waiting_.clear();
     }
 
+    [[nodiscard]] double largest() const {
+        double mass = 0.0;
+        for (const Region& region : regions_) mass = std::max(mass, region.mass);
+        return mass;
+    }
+
     [[nodiscard]] bool can_cut() const { return std::isfinite(regions_[at(next_.top())].cut.value); }
 
     const WeightedGraph& graph_;
@@ -167,16 +178,16 @@ class RecursiveCuts {
     int whole_ = 0;  ///< regions in the queue that are no crumbs
 };
 
-/// Region number per node: at least min(target, nodes) regions, all connected, of which `target` are no
-/// crumbs where the cuts suffice.
+/// Region number per node: at least min(target, nodes) regions, all connected. Where one of them is large,
+/// `target` are no crumbs, as far as the cuts suffice.
 std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
     const double total = std::accumulate(graph.mass.begin(), graph.mass.end(), 0.0);
     const int least = std::min(target, graph.node_count());
     RecursiveCuts cuts(graph);
-    cuts.cut(target, crumb_share * total / target, most_cuts * target);
+    cuts.cut(target, crumb_share * total / target, large_patch * total / target, most_cuts * target);
     if (cuts.count() < least) {
         cuts.forget_crumbs();
-        cuts.cut(least, 0.0, least);
+        cuts.cut(least, 0.0, total, least);
     }
     return std::move(cuts).regions();
 }

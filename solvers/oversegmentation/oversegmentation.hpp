@@ -26,7 +26,8 @@ struct OversegmentationOptions {
 /// function of `seed` and of the edge's two vertices only (of its two faces for a virtual edge). Faces are
 /// agglomerated to super-faces. Then, again and again, the region whose best cut has the smallest cut / A_1
 /// + cut / A_2 is cut in two (solvers/oversegmentation/fiedler_cut.hpp, with areas as masses), and each
-/// side is split into its connected pieces, until there are p regions of at least a twentieth of the mean
+/// side is split into its connected pieces, until there are p regions. Where one of them has more than 8
+/// times the mean area of a patch, cuts go on until there are p regions of at least a twentieth of the mean
 /// area of a patch. Smaller ones are crumbs (teeth, dust, what is left at holes), which are cut off first,
 /// as their borders are short. Of surplus regions the smallest in area joins the neighbour with which it
 /// shares the most edge weight. At most 4 p cuts are made. The result does not depend on scale; the order

@@ -67,11 +67,11 @@ TEST(Oversegmentation, FiftyConnectedPatchesOnSimpleShapes) {
     }
 }
 
-/// A sphere with dust on it: 60 spheres of .01 of its radius, .6 % of its area together.
+/// A sphere with dust on it: 200 spheres of .01 of its radius, 2 % of its area together.
 TEST(Oversegmentation, CrumbsAreNoPatches) {
     TriMesh mesh = test::sphere(4);
     SeededStream random(3);
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < 200; ++k) {
         TriMesh crumb = test::sphere(1, 0.01);
         Eigen::Vector3d place;
         for (double& x : place) x = random.uniform(-1.0, 1.0);
