@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "src/base/error.hpp"
 #include "src/families/label_cleaning.hpp"
@@ -15,7 +17,18 @@
 namespace coseg {
 namespace {
 
+constexpr int target_faces = 2500;
+
 class EveryFamily : public testing::TestWithParam<std::string> {};
+
+/// A shape of 2,500 faces or so. It is made once for all tests, as making it takes much longer than looking.
+const LabeledShape& made_once(const std::string& family, std::uint64_t seed, int index) {
+    static std::map<std::tuple<std::string, std::uint64_t, int>, LabeledShape> made;
+    const auto key = std::make_tuple(family, seed, index);
+    const auto found = made.find(key);
+    if (found != made.end()) return found->second;
+    return made.emplace(key, generate_shape(family, seed, index, target_faces)).first->second;
+}
 
 /// Whether shapes of the family may have handles, stretchers or rails, and so tunnels.
 bool has_rings(const std::string& family) {
@@ -47,18 +60,17 @@ int piece_count(const LabeledShape& shape, int label) {
 }
 
 TEST_P(EveryFamily, ShapesAreClosedConnectedEvenAndLabelled) {
-    constexpr int target = 2500;
     std::set<int> labels;
     for (int index = 0; index < 4; ++index) {
         SCOPED_TRACE(GetParam() + " " + std::to_string(index));
-        const LabeledShape shape = generate_shape(GetParam(), 7, index, target);
+        const LabeledShape& shape = made_once(GetParam(), 7, index);
         ASSERT_TRUE(test::is_closed_and_oriented(shape.mesh));
         EXPECT_TRUE(test::has_single_fans(shape.mesh));
         EXPECT_EQ(test::component_count(shape.mesh), 1);
         EXPECT_GT(test::volume(shape.mesh), 0.0);
         EXPECT_TRUE(shape.mesh.vertices.allFinite());
         EXPECT_TRUE(has_rings(GetParam()) || test::euler_characteristic(shape.mesh) == 2);
-        EXPECT_NEAR(shape.mesh.face_count(), target, 0.15 * target);
+        EXPECT_NEAR(shape.mesh.face_count(), target_faces, 0.15 * target_faces);
         const std::vector<double> angles = test::smallest_angles(shape.mesh);
         EXPECT_GT(angles[angles.size() / 20], 25.0);
         ASSERT_EQ(static_cast<int>(shape.face_label.size()), shape.mesh.face_count());
@@ -71,14 +83,13 @@ TEST_P(EveryFamily, ShapesAreClosedConnectedEvenAndLabelled) {
 }
 
 TEST_P(EveryFamily, SameSeedSameBytesOtherIndexOrSeedOtherShape) {
-    const LabeledShape one = generate_shape(GetParam(), 3, 0, 1000);
-    const LabeledShape again = generate_shape(GetParam(), 3, 0, 1000);
+    const LabeledShape& one = made_once(GetParam(), 7, 0);
+    const LabeledShape again = generate_shape(GetParam(), 7, 0, target_faces);
     EXPECT_TRUE(one.mesh.vertices == again.mesh.vertices);
     EXPECT_TRUE(one.mesh.faces == again.mesh.faces);
     EXPECT_EQ(one.face_label, again.face_label);
-    for (const LabeledShape& other :
-         {generate_shape(GetParam(), 3, 1, 1000), generate_shape(GetParam(), 4, 0, 1000)}) {
-        TriMesh a = one.mesh, b = other.mesh;
+    for (const LabeledShape* other : {&made_once(GetParam(), 7, 1), &made_once(GetParam(), 11, 0)}) {
+        TriMesh a = one.mesh, b = other->mesh;
         scale_to_unit_area(a);
         scale_to_unit_area(b);
         const Eigen::Vector3d size_a = a.vertices.rowwise().maxCoeff() - a.vertices.rowwise().minCoeff();
@@ -89,7 +100,7 @@ TEST_P(EveryFamily, SameSeedSameBytesOtherIndexOrSeedOtherShape) {
 
 TEST_P(EveryFamily, BoundariesBetweenPartsAreMostlyConcave) {
     // Angles between neighbouring faces of an even mesh say whether a part boundary lies in a crease.
-    const LabeledShape shape = generate_shape(GetParam(), 11, 0, 4000);
+    const LabeledShape& shape = made_once(GetParam(), 11, 0);
     double concave = 0.0, boundary = 0.0;
     for (const DualEdge& edge : dual_graph(shape.mesh, face_geometry(shape.mesh)).edges) {
         if (shape.face_label[edge.face_a] == shape.face_label[edge.face_b]) continue;
@@ -112,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Families, EveryFamily, testing::ValuesIn(family_names()
 TEST(ShapeFamilies, EveryHandleOfACupIsATunnel) {
     std::set<int> seen;
     for (const int index : {0, 3, 6}) {
-        const LabeledShape cup = generate_shape("cup", 1, index, 3000);
+        const LabeledShape& cup = made_once("cup", 7, index);
         const int handles = piece_count(cup, 1);
         EXPECT_EQ(test::euler_characteristic(cup.mesh), 2 - 2 * handles) << index;
         seen.insert(handles);
@@ -123,14 +134,14 @@ TEST(ShapeFamilies, EveryHandleOfACupIsATunnel) {
 TEST(ShapeFamilies, PartsAreCountedAsTheRecipeSays) {
     EXPECT_EQ(piece_count(generate_shape("octopus", 5, 3, 3000), 1), 8);
     EXPECT_EQ(piece_count(generate_shape("octopus", 5, 0, 3000), 1), 5);
-    const LabeledShape ant = generate_shape("ant", 5, 0, 3000);
+    const LabeledShape& ant = made_once("ant", 7, 0);
     for (const int single : {0, 1, 2}) EXPECT_EQ(piece_count(ant, single), 1);
     EXPECT_EQ(piece_count(ant, 3), 6);
     EXPECT_EQ(piece_count(ant, 4), 2);
-    EXPECT_EQ(piece_count(generate_shape("airplane", 5, 0, 3000), 3), 2);
-    EXPECT_EQ(piece_count(generate_shape("airplane", 5, 1, 3000), 3), 0);
-    EXPECT_EQ(piece_count(generate_shape("airplane", 5, 2, 3000), 3), 4);
-    EXPECT_EQ(piece_count(generate_shape("airplane", 5, 0, 3000), 4), 1);  // the fin
+    EXPECT_EQ(piece_count(made_once("airplane", 7, 0), 3), 2);
+    EXPECT_EQ(piece_count(made_once("airplane", 7, 1), 3), 0);
+    EXPECT_EQ(piece_count(made_once("airplane", 7, 2), 3), 4);
+    EXPECT_EQ(piece_count(made_once("airplane", 7, 0), 4), 1);  // the fin
 }
 
 TEST(ShapeFamilies, UnknownNamesAreAnsweredWithTheNearest) {
