@@ -140,7 +140,7 @@ wait_for_end_of() { # FOLDER : no process of ours writes to it any more
 ended() { # WHAT SIGNAL : the signal goes to the last rank's process (KILL) or to a lone one
     local what=$1 signal=$2 pid victim start=$SECONDS
     if [[ $signal == KILL ]]; then
-        mpirun --oversubscribe -n 3 "$COSEG" run --quiet --parts 2 --out "$work/ended" "$work/long/meshes" 2>"$work/err" &
+        OMPI_MCA_odls_base_sigkill_timeout=1 mpirun --oversubscribe -n 3 "$COSEG" run --quiet --parts 2 --out "$work/ended" "$work/long/meshes" 2>"$work/err" &
     else
         "$COSEG" run --quiet --parts 2 --out "$work/ended" "$work/long/meshes" 2>"$work/err" &
     fi
