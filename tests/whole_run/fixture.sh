@@ -42,6 +42,23 @@ peanut() {
     }' >"$1"
 }
 
+# tables COUNT FOLDER : the first generated tables of seed 5, of 2,000 faces, with their truth. To make one takes as long as to
+# cut it, so CTest has them made once for all tests (COSEG_TABLES).
+tables() {
+    if [[ -z ${COSEG_TABLES:-} ]]; then
+        "$COSEG" generate table --count "$1" --seed 5 --faces 2000 --out "$2" >/dev/null
+        return
+    fi
+    mkdir -p "$2/meshes" "$2/truth"
+    cp "$COSEG_TABLES/truth/labels.txt" "$2/truth/"
+    local k name
+    for ((k = 0; k < $1; ++k)); do
+        name=$(printf 'table_%04d' "$k")
+        cp "$COSEG_TABLES/meshes/$name.off" "$2/meshes/"
+        cp "$COSEG_TABLES/truth/$name.seg" "$2/truth/"
+    done
+}
+
 # refuses WHAT CODE WORDS COMMAND... : the command ends with CODE and says WORDS (a fixed string) once; no partial folder stays.
 refuses() {
     local what=$1 code=$2 words=$3 status=0

@@ -110,7 +110,7 @@ completes() {
 same() { diff -r "$work/$2/labels" "$work/$1/labels" >/dev/null || fail "$1: other labels than mpirun's"; }
 
 mkdir "$work/sub"
-"$COSEG" generate table --count 6 --seed 5 --faces 2000 --out "$work/set" >"$work/out"
+tables 6 "$work/set"
 fast=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 50)
 slow=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 1000)
 for kind in fast slow; do

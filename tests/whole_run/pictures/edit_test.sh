@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 here=$(dirname "${BASH_SOURCE[0]}")
-"$COSEG" generate table --count 4 --seed 5 --faces 2000 --out "$work/set" >/dev/null
+tables 4 "$work/set"
 options=(--parts 2 --patches 20 --geodesic-samples 100)
 "$COSEG" run --quiet --no-html --no-sheet --levels "${options[@]}" --state "$work/state" --out "$work/run" "$work/set/meshes"
 "$COSEG" report "$work/run" >/dev/null 2>&1 || { echo "skipped: built without three.js and Chart.js"; exit 77; }

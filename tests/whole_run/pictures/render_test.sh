@@ -4,7 +4,7 @@ set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
-"$COSEG" generate table --count 5 --seed 2 --faces 2000 --out "$work/set" >"$work/out"
+tables 5 "$work/set"
 quick=(--quiet --patches 20 --oversegmentations 1 --geodesic-samples 40 --no-choose --parts 2)
 for count in 1 3; do
     ranks "$count" "$COSEG" run "${quick[@]}" --out "$work/r$count" "$work/set/meshes"

@@ -5,7 +5,7 @@ set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
-"$COSEG" generate table --count 4 --seed 5 --faces 2000 --out "$work/set" >/dev/null
+tables 4 "$work/set"
 run=("$COSEG" run --quiet --no-html --no-sheet --parts 2 --patches 20 --geodesic-samples 100 --state "$work/state")
 "${run[@]}" --levels --out "$work/base" "$work/set/meshes"
 

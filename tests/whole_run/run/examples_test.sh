@@ -5,7 +5,7 @@ set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
-"$COSEG" generate table --count 5 --seed 5 --faces 2000 --out "$work/set" >/dev/null
+tables 5 "$work/set"
 mkdir "$work/one" "$work/some" "$work/none" "$work/bad" "$work/others"
 # The labels of one table, numbered the other way round; then the same for a third of its faces alone.
 python3 - "$work" <<'END'

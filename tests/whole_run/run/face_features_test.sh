@@ -4,7 +4,7 @@ set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
-"$COSEG" generate table --count 5 --seed 5 --faces 2000 --out "$work/set" >/dev/null
+tables 5 "$work/set"
 mkdir "$work/truth" "$work/noise" "$work/vectors" "$work/new"
 # NumPy files as numpy.save writes them: the parts of the truth, noise, and both of them as vectors.
 python3 - "$work" <<'END'

@@ -4,7 +4,7 @@ set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
-"$COSEG" generate table --count 7 --seed 5 --faces 2000 --out "$work/set"
+tables 7 "$work/set"
 for preset in default paper; do
     for count in 1 2 3 4 8; do
         ranks "$count" "$COSEG" run --quiet --preset "$preset" --parts 2 --patches 20 --geodesic-samples 100 \

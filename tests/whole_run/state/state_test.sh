@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 state=$work/state
 options=(--quiet --geodesic-samples 100)
-"$COSEG" generate table --count 8 --seed 5 --faces 2000 --out "$work/set" >"$work/out"
+tables 8 "$work/set"
 mkdir "$work/seven"
 cp "$work"/set/meshes/*[0-6].off "$work/seven/"
 
