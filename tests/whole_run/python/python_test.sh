@@ -17,7 +17,8 @@ cmake --install "$build" --component python --prefix "$work/prefix" >"$work/log"
 [[ ! -e $work/prefix/bin && ! -e $work/prefix/include ]] || fail "the component has more than the module"
 export PYTHONPATH=$work/prefix/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 MPLCONFIGDIR=$work
 here=$(dirname "${BASH_SOURCE[0]}")
-COSEG_WORK=$work/module timeout --signal=KILL 500 "$python" -m pytest -q -x -p no:cacheprovider "$here/module_test.py" ||
+tables 6 "$work/set"
+COSEG_WORK=$work/module COSEG_SET=$work/set timeout --signal=KILL 500 "$python" -m pytest -q -x -p no:cacheprovider "$here/module_test.py" ||
     fail "module_test.py"
 echo "ok: module_test.py"
 
@@ -31,7 +32,7 @@ comm = "world"
 if sys.argv[1] == "mpi4py":
     from mpi4py import MPI
     comm = MPI.COMM_WORLD
-shapes = coseg.generate("table", 4, seed=5, faces=2000)
+shapes = [coseg.load_mesh(path) for path in coseg.mesh_files(sys.argv[4])[:4]]
 result = coseg.segment(shapes, 2, names=[s.name for s in shapes], patches=20, geodesic_samples=50, comm=comm)
 assert result.report["ranks"] == int(sys.argv[2]), result.report["ranks"]
 try:
@@ -44,28 +45,39 @@ with open(os.path.join(sys.argv[3], str(os.getpid())), "w") as file:
     print(hashlib.sha256(b"".join(labels.tobytes() for labels in result.labels)).hexdigest(), file=file)
 END
 mkdir "$work"/{alone,together,mpi4py}
-"$python" "$work/shared.py" world 1 "$work/alone" || fail "a script on one process"
+"$python" "$work/shared.py" world 1 "$work/alone" "$work/set/meshes" || fail "a script on one process"
 
 # give_the_bytes FOLDER : two processes wrote into FOLDER what one wrote into alone.
 give_the_bytes() {
     [[ $(cat "$work/$1"/* | wc -l) -eq 2 && $(sort -u "$work/$1"/*) == "$(cat "$work/alone"/*)" ]] || fail "labels on two processes: $1"
 }
-ranks 2 "$python" "$work/shared.py" world 2 "$work/together" || fail "a script on two processes"
+ranks 2 "$python" "$work/shared.py" world 2 "$work/together" "$work/set/meshes" || fail "a script on two processes"
 give_the_bytes together
 if "$python" -c "import mpi4py" 2>/dev/null; then
-    ranks 2 "$python" "$work/shared.py" mpi4py 2 "$work/mpi4py" || fail "a script with mpi4py"
+    ranks 2 "$python" "$work/shared.py" mpi4py 2 "$work/mpi4py" "$work/set/meshes" || fail "a script with mpi4py"
     give_the_bytes mpi4py
 fi
 echo "ok: two processes"
 
-# The examples run, and draw; the cells of a notebook are run one after the other, as Jupyter would.
+# The examples run, and draw; the cells of a notebook are run one after the other, as Jupyter would. All cut the same tables, which
+# are made once.
 cp -r "$COSEG_SOURCE/python/examples" "$work/examples"
-(cd "$work/examples" && "$python" segment_generated.py "$work/picture.png" >"$work/out") || fail "segment_generated.py"
-[[ $(head -c 4 "$work/picture.png" | tail -c 3) == PNG ]] || fail "segment_generated.py draws nothing"
-grep -q "^accuracy 0\.[89]" "$work/out" || fail "segment_generated.py says $(cat "$work/out")"
-"$python" - "$work/examples/segment_generated.ipynb" <<'END' || fail "the notebook"
-import json, sys
-notebook = json.load(open(sys.argv[1]))
+awk '/^```/ { inside = ($0 == "```python") ; next } inside' "$COSEG_SOURCE/docs/python.md" >"$work/document.py"
+"$python" - "$work" <<'END' || fail "the examples: $(cat "$work"/*.said)"
+import contextlib, copy, functools, json, os, runpy, sys
+import coseg
+work = sys.argv[1]
+made = functools.lru_cache(coseg.generate)
+coseg.generate = lambda *given, **named: copy.deepcopy(made(*given, **named))
+
+def run(name, *words):
+    sys.argv = [name, *words]
+    with open(f"{work}/{os.path.basename(name)}.said", "w") as said, contextlib.redirect_stdout(said):
+        runpy.run_path(name, run_name="__main__")
+
+run(f"{work}/examples/segment_generated.py", f"{work}/picture.png")
+run(f"{work}/document.py")
+notebook = json.load(open(f"{work}/examples/segment_generated.ipynb"))
 assert notebook["nbformat"] == 4
 code = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
 assert sum(len(cell.strip().splitlines()) for cell in code[:2]) < 10, "more than 10 lines to the picture"
@@ -76,11 +88,12 @@ for cell in code:
     shown = eval(last, names)
     names.setdefault("shown", []).append(shown)
 figure = names["shown"][1]
-figure.savefig(sys.argv[1] + ".png")
+figure.savefig(f"{work}/notebook.png")
 assert len(figure.axes) == 12
 assert 0.8 < names["shown"][2] <= 1.0, names["shown"]
 END
-awk '/^```/ { inside = ($0 == "```python") ; next } inside' "$COSEG_SOURCE/docs/python.md" >"$work/document.py"
-"$python" "$work/document.py" >"$work/out" || fail "the code of docs/python.md"
-grep -q "shape 0: face 0 refers to vertex 7, but there are 3 vertices" "$work/out" || fail "docs/python.md says $(cat "$work/out")"
+[[ $(head -c 4 "$work/picture.png" | tail -c 3) == PNG ]] || fail "segment_generated.py draws nothing"
+grep -q "^accuracy 0\.[89]" "$work/segment_generated.py.said" || fail "segment_generated.py says $(cat "$work/segment_generated.py.said")"
+grep -q "shape 0: face 0 refers to vertex 7, but there are 3 vertices" "$work/document.py.said" ||
+    fail "docs/python.md says $(cat "$work/document.py.said")"
 echo "ok: the examples and the document"
