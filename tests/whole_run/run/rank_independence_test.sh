@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 tables 7 "$work/set"
 for preset in default paper; do
     for count in 1 2 3 4 8; do
-        ranks "$count" "$COSEG" run --quiet --preset "$preset" --parts 2 --patches 20 --geodesic-samples 100 \
+        ranks "$count" "$COSEG" run --quiet --no-sheet --no-html --preset "$preset" --parts 2 --patches 20 --geodesic-samples 50 \
             --out "$work/$preset.$count" "$work/set/meshes"
         diff -r "$work/$preset.1/labels" "$work/$preset.$count/labels" || fail "$preset: labels differ on $count ranks"
         diff -r "$work/$preset.1/patches" "$work/$preset.$count/patches" || fail "$preset: patches differ on $count ranks"
@@ -17,7 +17,7 @@ for preset in default paper; do
     echo "ok: $preset"
 done
 
-several=(--quiet --parts 2 --patches 20 --geodesic-samples 100 --word-sets 3)
+several=(--quiet --no-sheet --no-html --parts 2 --patches 20 --geodesic-samples 50 --word-sets 3)
 for count in 1 3; do ranks "$count" "$COSEG" run "${several[@]}" --out "$work/words.$count" "$work/set/meshes"; done
 diff -r "$work/words.1/labels" "$work/words.3/labels" || fail "several sets of words: labels differ on 3 ranks"
 objective() { grep '"objective"' "$1/report.json"; }
