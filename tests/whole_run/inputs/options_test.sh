@@ -20,7 +20,7 @@ mkdir "$work/set"
 peanut "$work/set/a.off" 0.5
 peanut "$work/set/b.off" 0.6
 peanut "$work/set/c.off" 0.7
-common=(--quiet --patches 10 --geodesic-samples 40)
+common=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 40)
 
 "$COSEG" run "${common[@]}" --parts 2 --alpha 0.02 --preset paper --lambda 10 --out "$work/by_option" "$work/set"
 printf 'parts = 2\nalpha = 0.02\npreset = "paper"\nlambda = 10\n' >"$work/run.toml"

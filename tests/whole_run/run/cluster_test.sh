@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 mkdir "$work/set"
 for waist in 0.4 0.5 0.6 0.7; do peanut "$work/set/p$waist.off" $waist; done
-run=("$COSEG" run --quiet --patches 10 --geodesic-samples 40 --bins 20 --parts 2 --oversegmentations 1 --no-choose --adjacency 2)
+run=("$COSEG" run --quiet --no-sheet --no-html --patches 10 --geodesic-samples 40 --bins 20 --parts 2 --oversegmentations 1 --no-choose --adjacency 2)
 "${run[@]}" --keep-features --out "$work/kept" "$work/set"
 "${run[@]}" --out "$work/plain" "$work/set"
 diff -r "$work/kept/labels" "$work/plain/labels" || fail "keeping features changes labels"

@@ -7,7 +7,7 @@ unset COSEG_RANKS
 
 mkdir "$work/set"
 for waist in 0.4 0.5 0.6; do peanut "$work/set/waist_$waist.off" "$waist"; done
-common=(--quiet --patches 10 --geodesic-samples 40 --parts 2)
+common=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 40 --parts 2)
 
 # expects RANKS DIR : the report says so, and the bytes are those of one rank.
 expects() {

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 mkdir "$work/set"
 for waist in 0.4 0.5 0.6 0.7 0.8; do peanut "$work/set/p$waist.off" $waist; done
-common=(--quiet --patches 8 --geodesic-samples 40 --bins 20 --parts 2)
+common=(--quiet --patches 8 --geodesic-samples 40 --bins 20 --parts 2 --no-sheet --no-html)
 
 # facts FOLDER VARIANT SCOPE FEATURES: what the report says of the optimisation, and its certificate.
 facts() {
