@@ -60,7 +60,7 @@ python3 -c 'import json, sys; state = json.load(open(sys.argv[1]))["state"]; sys
     "$work/kept2/report.json" || fail "descriptions are not taken from the state folder"
 
 refuses "no run" 3 "is no run" "$COSEG" assign --to "$work/old" --out "$work/x" "$work/new"
-"$COSEG" "${run[@]}" --no-keep-model --out "$work/bare" "$work/old"
+"$COSEG" run "${bare[@]}" --parts 3 --patches 10 --geodesic-samples 40 --no-choose --no-keep-model --out "$work/bare" "$work/old"
 [[ ! -e $work/bare/model.h5 ]] || fail "--no-keep-model keeps a model"
 refuses "a run without a model" 3 "holds no model.h5" "$COSEG" assign --to "$work/bare" --out "$work/x" "$work/new"
 cp "$work/run/model.h5" "$work/bare/model.h5"
