@@ -4,7 +4,7 @@ set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
-tables 7 "$work/set"
+tables 5 "$work/set"
 for preset in default paper; do
     for count in 1 2 3 4 8; do
         ranks "$count" "$COSEG" run --quiet --no-sheet --no-html --preset "$preset" --parts 2 --patches 20 --geodesic-samples 50 \
