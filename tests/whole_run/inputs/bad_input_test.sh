@@ -12,7 +12,7 @@ peanut "$work/good/c.off" 0.7
 peanut "$work/one/x.off" 0.5
 
 parts=2
-run() { ranks "$1" "$COSEG" run --quiet --parts "$parts" --patches 10 --geodesic-samples 40 --out "$work/result" "${@:2}"; }
+run() { ranks "$1" "$COSEG" run --quiet --no-sheet --no-html --parts "$parts" --patches 10 --geodesic-samples 40 --out "$work/result" "${@:2}"; }
 
 refuses "empty folder" 3 "$work/empty" run 2 "$work/empty"
 refuses "missing folder" 3 "$work/nowhere" run 4 "$work/nowhere"
@@ -129,7 +129,7 @@ refuses "meshes in the folder of results" 4 "ply/a.off" \
 # A rank that is killed and a run that is told to end: over at once. A process that is told to end leaves nothing; the
 # others of a killed rank have a second before mpirun kills them too, and what then stays goes with the next run.
 mkdir "$work/none"
-"$COSEG" generate table --count 6 --faces 20000 --out "$work/long" >"$work/out"
+"$COSEG" generate table --count 3 --faces 20000 --out "$work/long" >"$work/out"
 wait_for_end_of() { # FOLDER : no process of ours writes to it any more
     for ((k = 0; k < 300; ++k)); do
         pgrep -f -- "--out $1 " >"$work/out" || return 0
