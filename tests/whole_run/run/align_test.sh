@@ -14,11 +14,12 @@ for mesh in os.listdir(sys.argv[2]):
     turn_off(os.path.join(sys.argv[2], mesh), os.path.join(sys.argv[3], mesh), random_rotation(mesh))
 END
 common=(--parts 4 --patches 30 --geodesic-samples 100 --no-html)
+# What is described once serves all runs but that on two ranks.
 ranks 2 "$COSEG" run "${common[@]}" --out "$work/two" "$work/turned" 2>"$work/log"
-"$COSEG" run "${common[@]}" --quiet --out "$work/one" "$work/turned"
-"$COSEG" run "${common[@]}" --quiet --align off --out "$work/off" "$work/turned"
-"$COSEG" run "${common[@]}" --no-sheet --out "$work/upright" "$work/set/meshes" 2>"$work/upright.log"
-"$COSEG" run "${common[@]}" --no-sheet --quiet --align off --out "$work/upright_off" "$work/set/meshes"
+"$COSEG" run "${common[@]}" --quiet --state "$work/state" --out "$work/one" "$work/turned"
+"$COSEG" run "${common[@]}" --quiet --align off --state "$work/state" --out "$work/off" "$work/turned"
+"$COSEG" run "${common[@]}" --no-sheet --state "$work/state" --out "$work/upright" "$work/set/meshes" 2>"$work/upright.log"
+"$COSEG" run "${common[@]}" --no-sheet --quiet --align off --state "$work/state" --out "$work/upright_off" "$work/set/meshes"
 
 grep -q "align .* aligned: links agree to" "$work/log" || fail "the log says nothing of the alignment"
 grep -q "align .* as they stand: .* stand like the others already" "$work/upright.log" || fail "the log says not why nothing is aligned"
@@ -51,7 +52,7 @@ for s in aligned["shapes"]:
     assert math.hypot(*mean) < 0.5 and 0.7 < size < 1.4, (s["name"], mean, size)
 END
 # Subsets are aligned each for its own cut, and then all together.
-ranks 2 "$COSEG" run "${common[@]}" --quiet --no-sheet --subsets 5 --out "$work/subsets" "$work/turned"
+ranks 2 "$COSEG" run "${common[@]}" --quiet --no-sheet --subsets 5 --state "$work/state" --out "$work/subsets" "$work/turned"
 python3 - "$COSEG_SOURCE/bench" "$work" <<'END' || fail "the alignment of subsets"
 import json, sys
 sys.path.insert(0, sys.argv[1])
