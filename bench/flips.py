@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Flips single bits in the files that runs keep and read again, and sees that each flip is detected or harmless.
 
-    bench/flips.py --coseg build/bin/coseg [--flips 1000] [--seed 1] [--kinds KIND ...] [--shapes 4] [--faces 2000]
+    bench/flips.py --coseg build/bin/coseg [--flips 1000] [--seed 1] [--kinds KIND ...] [--shapes 4] [--faces 2000 | --meshes DIR]
                    [--out flips.json] [--scratch DIR]
 
 The files are those of a small run with a state folder, --keep-features and a model. One bit of one file is flipped; of every two flips one is among the first 2,048 bytes, where the headers are. Then the command that
@@ -40,8 +40,10 @@ class Bench:
         self.environment = dict(os.environ, COSEG_RANKS="1", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1",
                                 OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
         self.quick = ["--quiet", "--parts", "2", "--patches", "10", "--geodesic-samples", "50", "--no-html", "--no-sheet"]
-        self.shapes, self.run_folder, self.state = scratch / "shapes", scratch / "run", scratch / "state"
-        self.must("generate", "table", "--count", str(options.shapes), "--faces", str(options.faces), "--out", str(self.shapes))
+        self.meshes, self.run_folder, self.state = options.meshes, scratch / "run", scratch / "state"
+        if not self.meshes:
+            self.must("generate", "table", "--count", str(options.shapes), "--faces", str(options.faces), "--out", str(scratch / "shapes"))
+            self.meshes = scratch / "shapes/meshes"
         self.must(*self.run_words(self.run_folder), "--keep-features", "--state", str(self.state))
 
     def call(self, *words):
@@ -54,7 +56,7 @@ class Bench:
             sys.exit(f"coseg {' '.join(map(str, words))} ends with {done.returncode}:\n{done.stdout}")
 
     def run_words(self, out):
-        return ["run", *self.quick, "--out", str(out), str(self.shapes / "meshes")]
+        return ["run", *self.quick, "--out", str(out), str(self.meshes)]
 
 
 def contents(folder, names):
@@ -107,7 +109,7 @@ class OfRun(Kind):
         given = {}
         for number, words in enumerate(self.words):
             out = place / f"out{number}"
-            replace = {"RUN": place / "run", "FEATURES": place / "run/features.h5", "OUT": out, "MESHES": self.bench.shapes / "meshes"}
+            replace = {"RUN": place / "run", "FEATURES": place / "run/features.h5", "OUT": out, "MESHES": self.bench.meshes}
             done = self.bench.call(*(replace.get(word, word) for word in words))
             if done.returncode != 0:
                 return done, {}
@@ -170,6 +172,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--shapes", type=int, default=4)
     parser.add_argument("--faces", type=int, default=2000)
+    parser.add_argument("--meshes", type=pathlib.Path, help="a folder of meshes instead of generated shapes")
     parser.add_argument("--kinds", nargs="+")
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--scratch", type=pathlib.Path)
