@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 state=$work/state
-options=(--quiet --geodesic-samples 100)
+options=(--quiet --no-sheet --no-html --geodesic-samples 100)
 tables 8 "$work/set"
 mkdir "$work/seven"
 cp "$work"/set/meshes/*[0-6].off "$work/seven/"
@@ -100,7 +100,7 @@ refuses "a folder of other things" 4 "is no state folder" \
     ranks 2 "$COSEG" run "${options[@]}" --parts 2 --state "$work/set" --out "$work/refused" "$work/seven"
 
 # ends_on SIGNAL CODE : a run that is sent SIGNAL as soon as the first description is kept ends with CODE, and its state is used.
-slow=(--quiet --parts 2 --patches 20 --geodesic-samples 800)
+slow=(--quiet --no-sheet --no-html --parts 2 --patches 20 --geodesic-samples 400)
 "$COSEG" run --ranks 1 "${slow[@]}" --out "$work/slow" "$work/seven"
 ends_on() {
     local signal=$1 code=$2 status=0 folder=$work/state.$1
