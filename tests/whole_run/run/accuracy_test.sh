@@ -4,10 +4,11 @@ set -euo pipefail
 # shellcheck source=tests/whole_run/fixture.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
-for seed in 1 2; do
-    "$COSEG" generate table --count 3 --seed "$seed" --faces 2000 --out "$work/made.$seed" >"$work/log"
-    mkdir -p "$work/data/tables_$seed"
-    cp "$work/made.$seed"/meshes/* "$work/made.$seed"/truth/* "$work/data/tables_$seed"
+tables 6 "$work/made"
+for set in 1 2; do
+    mkdir -p "$work/data/tables_$set"
+    for k in 1 2 3; do cp "$work/made"/*/table_000$((3 * set - 4 + k)).* "$work/data/tables_$set"; done
+    cp "$work/made/truth/labels.txt" "$work/data/tables_$set"
 done
 quick="--patches 10 --geodesic-samples 40 --oversegmentations 1"
 bench() {
