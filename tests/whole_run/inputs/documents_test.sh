@@ -44,7 +44,7 @@ done
 
 python=/usr/bin/python3
 "$python" -c "import numpy, h5py" 2>/dev/null || { echo "skipped in part: no numpy and h5py"; exit 0; }
-coseg run --quiet --force --no-html --no-sheet --keep-features --parts 3 --out result goblets/meshes
+coseg run --quiet --force --no-html --no-sheet --keep-features --geodesic-samples 100 --oversegmentations 1 --no-choose --parts 3 --out result goblets/meshes
 awk '/^```/ { inside = ($0 == "```python") ; next } inside' "$docs/tutorial.md" >three_lines.py
 printf 'assert set(part) <= {0, 1, 2} and len(features) == 5, features\n' >>three_lines.py
 "$python" three_lines.py || fail "the three lines of Python"
