@@ -25,6 +25,9 @@ coseg_test_packages=(
     slurm-wlm munge # for slurm_test.sh, which starts daemons of its own; the packages' own stay off without a slurm.conf
 )
 
+# To build with sanitizers, and to fuzz the readers.
+coseg_sanitizer_packages=(clang libclang-rt-14-dev)
+
 # missing_packages NAME... : those that are not installed, one a line.
 missing_packages() {
     local installed package

@@ -5,8 +5,8 @@
 #
 # The build folder is build/, shared with jobs/quickstart.sh. The exit code is CTest's.
 # COSEG_WARNINGS_AS_ERRORS=1 makes compiler warnings errors, =0 turns that off again.
-# COSEG_SANITIZERS=1 afterwards builds the unit tests with the address and the undefined-behaviour sanitizer in
-# build-sanitizers/ and runs them too, for at most 10 minutes.
+# COSEG_SANITIZERS=1 afterwards builds the fuzzers of the readers and the unit tests of src and io with the address and the
+# undefined-behaviour sanitizer in build-fuzzers/, and runs them too: for at most 10 minutes in all.
 # COSEG_LINT_ALL=1 has clang-tidy check everything and not only what changed (tests/lint_tidy.py).
 set -euo pipefail
 # shellcheck source=jobs/build_steps.sh
@@ -31,21 +31,23 @@ case "${COSEG_SANITIZERS:-0}" in
         ;;
 esac
 
-# with_sanitizers : builds the unit tests once more, with sanitizers, and runs them.
+# with_sanitizers : the preset `fuzzers`, built and run.
 with_sanitizers() {
-    local sanitized=$root/build-sanitizers status=0
-    mkdir -p "$sanitized"
-    echo "building the unit tests with sanitizers in $sanitized"
-    (cd "$root" && logged "$sanitized/configure.log" cmake --preset sanitizers)
-    logged "$sanitized/build.log" cmake --build "$sanitized" --parallel "$cores" --target unit_tests
-    (cd "$root" && timeout --signal=INT 600 \
-        ctest --preset sanitizers --label-regex unit --parallel "$cores") || status=$?
-    if ((status == 124)); then echo "error: the unit tests with sanitizers took longer than 10 minutes" >&2; fi
+    local fuzzers=$root/build-fuzzers status=0 end=$((SECONDS + 600))
+    mkdir -p "$fuzzers"
+    echo "building the readers and their tests with sanitizers in $fuzzers"
+    (cd "$root" && logged "$fuzzers/configure.log" cmake --preset fuzzers)
+    logged "$fuzzers/build.log" timeout --signal=INT $((end - SECONDS)) cmake --build "$fuzzers" --parallel "$cores" \
+        --target unit_tests reader_fuzzer
+    (cd "$root" && timeout --signal=INT $((end - SECONDS)) ctest --preset fuzzers --parallel "$cores") || status=$?
+    if ((status == 124)); then echo "error: building and testing with sanitizers took longer than 10 minutes" >&2; fi
     return "$status"
 }
 
+packages=("${coseg_packages[@]}" "${coseg_python_packages[@]}" "${coseg_test_packages[@]}")
+if [[ ${COSEG_SANITIZERS:-0} == 1 ]]; then packages+=("${coseg_sanitizer_packages[@]}"); fi
 mkdir -p "$build"
-install_missing "$build/install.log" "${coseg_packages[@]}" "${coseg_python_packages[@]}" "${coseg_test_packages[@]}"
+install_missing "$build/install.log" "${packages[@]}"
 configure "${options[@]}"
 echo "building the program and its tests in $build"
 build_target all

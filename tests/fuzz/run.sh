@@ -4,64 +4,50 @@
 #
 #   tests/fuzz/run.sh [SECONDS [SUFFIX ...]]     60 seconds each of all readers; the suffixes are those in tests/corpus
 #
-# Needs clang++ with its runtime libraries (Debian: clang, libclang-rt-14-dev); without them it says so and ends with 77. The
-# fuzzers are built in COSEG_FUZZ_BUILD, or build-fuzz/. They start from tests/corpus and keep what they find new in corpus/
-# there. A finding ends the script with exit code 1, and the bytes that led to it are finding-* there: put them into
-# tests/corpus with the correction.
+# COSEG_FUZZER is the program; without it, it is built in build-fuzzers/ (the preset `fuzzers`), which needs clang++ with its
+# runtime libraries (Debian: clang, libclang-rt-14-dev). As many readers are fuzzed at once as there are cores. They start from
+# tests/corpus, every file of which they read first, and keep what they find new in corpus/ beside the program. A finding ends
+# the script with exit code 1, and the bytes that led to it are finding.SUFFIX-* there: put them into tests/corpus with the
+# correction.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+# shellcheck source=jobs/build_steps.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../../jobs/build_steps.sh"
 seconds=${1:-60}
 shift $(($# > 0 ? 1 : 0))
 suffixes=("$@")
 ((${#suffixes[@]} > 0)) || suffixes=(.off .obj .ply .stl .glb .gltf .seg .txt .report .corrections .constraints .alignment .problem .npy)
-build=${COSEG_FUZZ_BUILD:-$root/build-fuzz}
-mkdir -p "$build"
-if ! command -v clang++ >/dev/null ||
-    ! echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
-        clang++ -fsanitize=fuzzer,address,undefined -x c++ -o "$build/probe" - 2>/dev/null; then
-    echo "skipped: no clang++ with its runtime libraries (Debian: clang, libclang-rt-14-dev)"
-    exit 77
+program=${COSEG_FUZZER:-$root/build-fuzzers/bin/reader_fuzzer}
+if [[ -z ${COSEG_FUZZER:-} ]]; then
+    build=$root/build-fuzzers
+    mkdir -p "$build"
+    echo "building the readers in $build"
+    (cd "$root" && logged "$build/configure.log" cmake --preset fuzzers)
+    build_target reader_fuzzer
 fi
-
-sources=("$root"/io/mesh_files/*.cpp "$root"/io/gltf/*.cpp "$root"/src/mesh/{face_triangles,polygon_triangulation}.cpp
-    "$root"/io/data_files/{label,name,correction,alignment,face_feature,problem}_file.cpp
-    "$root"/io/folders/finished_run.cpp "$root"/io/files/{hdf5_file,content_hash}.cpp
-    "$root"/io/files/{atomic_file,file_contents,text_cursor,text_encoding}.cpp "$root"/src/base/*.cpp
-    "$root"/src/pictures/{part_colors,image}.cpp)
-read -ra hdf5_includes < <(pkg-config --cflags hdf5)
-read -ra hdf5_libraries < <(pkg-config --libs hdf5)
-checks=("-fsanitize=address,undefined" -fno-sanitize-recover=undefined -D_GLIBCXX_ASSERTIONS)
-ccache=()
-if command -v ccache >/dev/null; then ccache=(ccache); fi
-compile=("${ccache[@]}" clang++ -std=c++20 -O1 -g1 '-DCOSEG_VERSION="fuzzed"' "${checks[@]}" "-I$root" -isystem /usr/include/eigen3
-    "${hdf5_includes[@]}")
-
-echo "building the readers"
-mkdir -p "$build/objects"
-for source in "${sources[@]}"; do
-    printf '%s\0' -o "$build/objects/$(basename "$source").o" "$source"
-done | xargs -0 -n 3 -P "$(nproc)" "${compile[@]}" -fsanitize=fuzzer-no-link -c
-
-program=$build/reader_fuzzer
-"${compile[@]}" -fsanitize=fuzzer-no-link -c -o "$build/reader_fuzzer.o" "$root/tests/fuzz/reader_fuzzer.cpp"
-clang++ "${checks[@]}" -fsanitize=fuzzer -o "$program" "$build/reader_fuzzer.o" "$build"/objects/*.o "${hdf5_libraries[@]}" -lxxhash
+results=$(dirname "$program")/../fuzz
+mkdir -p "$results"
 
 # fuzz SUFFIX : fuzzes one reader.
 fuzz() {
     local suffix=$1
-    local found=$build/corpus/$suffix seeds=$build/seeds/$suffix
+    local found=$results/corpus/$suffix seeds=$results/seeds/$suffix log=$results/log$suffix
     rm -rf "$seeds"
     mkdir -p "$found" "$seeds"
     find "$root/tests/corpus" -name "*$suffix" -exec cp --target-directory="$seeds" {} +
-    echo "fuzzing the reader of $suffix for $seconds s"
     COSEG_FUZZED=$suffix "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4096 -print_final_stats=1 -verbosity=0 \
-        -artifact_prefix="$build/finding-" "$found" "$seeds" 2>&1 | tee "$build/log$suffix" | grep -E "ERROR|SUMMARY|number_of" ||
-        true
-    if compgen -G "$build/finding-*" >/dev/null; then
-        echo "a finding: $(ls "$build"/finding-*); see $build/log$suffix" >&2
+        -artifact_prefix="$results/finding$suffix-" "$found" "$seeds" >"$log" 2>&1 || true
+    if compgen -G "$results/finding$suffix-*" >/dev/null; then
+        echo "a finding: $(ls "$results/finding$suffix"-*); see $log" >&2
         return 1
     fi
-    grep -q number_of_executed_units "$build/log$suffix" || { cat "$build/log$suffix" >&2; return 1; }
+    grep -q number_of_executed_units "$log" || { cat "$log" >&2; return 1; }
+    echo "fuzzed the reader of $suffix for $seconds s: $(sed -n 's/.*number_of_executed_units: *//p' "$log") inputs"
 }
 
-for suffix in "${suffixes[@]}"; do fuzz "$suffix"; done
+rm -f "$results/failed"
+for suffix in "${suffixes[@]}"; do
+    while (($(jobs -rp | wc -l) >= cores)); do sleep 0.2; done
+    { fuzz "$suffix" || touch "$results/failed"; } &
+done
+wait
+[[ ! -e $results/failed ]]
