@@ -33,7 +33,8 @@ if sys.argv[1] == "mpi4py":
     from mpi4py import MPI
     comm = MPI.COMM_WORLD
 shapes = [coseg.load_mesh(path) for path in coseg.mesh_files(sys.argv[4])[:4]]
-result = coseg.segment(shapes, 2, names=[s.name for s in shapes], patches=20, geodesic_samples=50, comm=comm)
+result = coseg.segment(shapes, 2, names=[s.name for s in shapes], patches=20, geodesic_samples=50,
+                       oversegmentations=1, comm=comm)
 assert result.report["ranks"] == int(sys.argv[2]), result.report["ranks"]
 try:
     coseg.segment([shapes[0], ([[0, 0, 0]], [[0, 0, 9]])], 2, comm=comm)
