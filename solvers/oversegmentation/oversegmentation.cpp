@@ -23,13 +23,13 @@ namespace {
 // Lengths and areas below this share of their mean count as that much: degenerate faces stay in the graph,
 // connected and with a finite cut / area.
 constexpr double smallest_share = 1e-6;
-// Regions below this share of the mean area of a patch are crumbs, which are cut off first, as their borders are
-// short. They do not count as patches where they use up so many that one is left with more than `large_patch` times
-// the mean area.
+// Regions below this share of the mean area of a patch are crumbs, which are cut off first, as their borders
+// are short. They do not count as patches where they use up so many that one is left with more than
+// `large_patch` times the mean area.
 constexpr double crumb_share = 0.05;
 constexpr double large_patch = 8.0;
 // Cuts for each patch asked for, at most: shapes of nothing but crumbs are left with them.
-constexpr int most_cuts = 4;
+constexpr int most_cuts = 10;
 
 double edge_noise(const DualEdge& edge, std::uint64_t seed) {
     const auto a = static_cast<std::uint64_t>(edge.is_virtual ? edge.face_a : edge.vertex_a);
@@ -111,12 +111,11 @@ class RecursiveCuts {
         waiting_ = std::move(pieces);
     }
 
-    /// Goes on until there are `target` regions of at most the mass `large`, or as many that are no crumbs, or
-    /// nothing is left to cut, or `most` cuts have been made.
-    void cut(int target, double crumb, double large, int most) {
+    /// Goes on until there are `target` regions of at least the mass `crumb`, or nothing is left to cut, or
+    /// `most` cuts have been made.
+    void cut(int target, double crumb, int most) {
         take_up(crumb);
-        const auto is_done = [&] { return count() >= target && (whole_ >= target || largest() <= large); };
-        for (int cuts = 0; cuts < most && !is_done() && can_cut(); ++cuts) {
+        for (int cuts = 0; cuts < most && whole_ < target && can_cut(); ++cuts) {
             Region& chosen = regions_[at(next_.top())];
             next_.pop();
             --whole_;
@@ -126,11 +125,10 @@ class RecursiveCuts {
         }
     }
 
-    /// From now on crumbs are regions like others.
-    void forget_crumbs() {
-        for (; !next_.empty(); next_.pop()) waiting_.push_back(std::move(regions_[at(next_.top())].nodes));
-        regions_.clear();
-        whole_ = 0;
+    [[nodiscard]] double largest() const {
+        double mass = 0.0;
+        for (const Region& region : regions_) mass = std::max(mass, region.mass);
+        return mass;
     }
 
     [[nodiscard]] int count() const { return static_cast<int>(next_.size()); }
@@ -163,12 +161,6 @@ class RecursiveCuts {
         waiting_.clear();
     }
 
-    [[nodiscard]] double largest() const {
-        double mass = 0.0;
-        for (const Region& region : regions_) mass = std::max(mass, region.mass);
-        return mass;
-    }
-
     [[nodiscard]] bool can_cut() const { return std::isfinite(regions_[at(next_.top())].cut.value); }
 
     const WeightedGraph& graph_;
@@ -181,13 +173,14 @@ class RecursiveCuts {
 /// Region number per node: at least min(target, nodes) regions, all connected. Where one of them is large,
 /// `target` are no crumbs, as far as the cuts suffice.
 std::vector<int> recursive_cuts(const WeightedGraph& graph, int target) {
-    const double total = std::accumulate(graph.mass.begin(), graph.mass.end(), 0.0);
+    const double mean = std::accumulate(graph.mass.begin(), graph.mass.end(), 0.0) / target;
     const int least = std::min(target, graph.node_count());
     RecursiveCuts cuts(graph);
-    cuts.cut(target, crumb_share * total / target, large_patch * total / target, most_cuts * target);
-    if (cuts.count() < least) {
-        cuts.forget_crumbs();
-        cuts.cut(least, 0.0, total, least);
+    cuts.cut(least, 0.0, least);
+    if (cuts.largest() > large_patch * mean) {
+        RecursiveCuts without_crumbs(graph);
+        without_crumbs.cut(target, crumb_share * mean, most_cuts * target);
+        if (without_crumbs.count() >= least) return std::move(without_crumbs).regions();
     }
     return std::move(cuts).regions();
 }

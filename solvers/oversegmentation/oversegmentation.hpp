@@ -30,7 +30,7 @@ struct OversegmentationOptions {
 /// times the mean area of a patch, cuts go on until there are p regions of at least a twentieth of the mean
 /// area of a patch. Smaller ones are crumbs (teeth, dust, what is left at holes), which are cut off first,
 /// as their borders are short. Of surplus regions the smallest in area joins the neighbour with which it
-/// shares the most edge weight. At most 4 p cuts are made. The result does not depend on scale; the order
+/// shares the most edge weight. At most 10 p cuts are made. The result does not depend on scale; the order
 /// of faces matters only where values tie. `geometry` and `graph` are of the same mesh. Throws Error(usage)
 /// for options out of range.
 ///
