@@ -86,7 +86,8 @@ std::vector<PartitionCandidate> dealt_clusterings(const Comm& comm, const Cluste
     std::vector<PartitionCandidate> mine;
     SharedCounter counter(comm);
     agree(comm, [&] {
-        for (auto q = at(counter.next()); q < graphs.size(); q = at(counter.next())) {
+        // Across nodes the first rank may not answer while it cuts. The first graphs are dealt unasked.
+        for (auto q = at(comm.rank()); q < graphs.size(); q = at(comm.size() + counter.next())) {
             for (PartitionCandidate& r : clusterings_of_graph(self, task, graphs[q], VectorSums::plain)) {
                 mine.push_back(std::move(r));
             }
