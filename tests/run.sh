@@ -6,7 +6,8 @@
 # The build folder is build/, shared with jobs/quickstart.sh. The exit code is CTest's.
 # COSEG_WARNINGS_AS_ERRORS=1 makes compiler warnings errors, =0 turns that off again.
 # COSEG_SANITIZERS=1 afterwards builds the fuzzers of the readers and the unit tests of src and io with the address and the
-# undefined-behaviour sanitizer in build-fuzzers/, and runs them too: for at most 10 minutes in all.
+# undefined-behaviour sanitizer in build-fuzzers/, and runs them too: for at most 10 minutes in all. Where Clang cannot be
+# installed this is skipped with a message.
 # COSEG_LINT_ALL=1 has clang-tidy check everything and not only what changed (tests/lint_tidy.py).
 set -euo pipefail
 # shellcheck source=jobs/build_steps.sh
@@ -44,12 +45,24 @@ with_sanitizers() {
     return "$status"
 }
 
+# clang_has_sanitizers : whether Clang is here with its runtime libraries.
+clang_has_sanitizers() {
+    command -v clang++ >/dev/null &&
+        echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
+        clang++ -fsanitize=fuzzer,address,undefined -x c++ -o "$build/sanitizer_probe" - 2>/dev/null
+}
+
 packages=("${coseg_packages[@]}" "${coseg_python_packages[@]}" "${coseg_test_packages[@]}")
-if [[ ${COSEG_SANITIZERS:-0} == 1 ]]; then packages+=("${coseg_sanitizer_packages[@]}"); fi
 mkdir -p "$build"
 install_missing "$build/install.log" "${packages[@]}"
 configure "${options[@]}"
 echo "building the program and its tests in $build"
 build_target all
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$cores" "$@"
-if [[ ${COSEG_SANITIZERS:-0} == 1 ]]; then with_sanitizers; fi
+if [[ ${COSEG_SANITIZERS:-0} == 1 ]]; then
+    if install_missing "$build/install_sanitizers.log" "${coseg_sanitizer_packages[@]}" && clang_has_sanitizers; then
+        with_sanitizers
+    else
+        echo "skipped: no tests with sanitizers, as Clang and its runtime libraries are missing (${coseg_sanitizer_packages[*]})"
+    fi
+fi
