@@ -123,14 +123,13 @@ def read_labels(path):
         return numpy.array([int(word) for word in file.read().split()])
 
 
-def segment(arguments, parts, seed, out):
-    """The labels of every shape, by name."""
+def segment(arguments, parts, seed, out, words):
+    """The labels of every shape, by name, of a run with these further options and meshes."""
     command = ["mpirun", "--oversubscribe", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html",
-               "--no-keep-model", "--force", "--parts", str(parts), "--seed", str(seed), "--state", arguments.state, "--out", out,
-               *arguments.options, arguments.folder]
+               "--no-keep-model", "--force", "--parts", str(parts), "--seed", str(seed), "--out", out, *words]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(f"consistency: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
+        sys.exit(f"{' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
     folder = os.path.join(out, "labels")
     return {file[:-4]: read_labels(os.path.join(folder, file)) for file in os.listdir(folder) if file.endswith(".seg")}
 
@@ -194,7 +193,8 @@ def measure(arguments, shapes, work):
     for parts in arguments.parts:
         runs = []
         for seed in arguments.seeds:
-            runs.append(segment(arguments, parts, seed, os.path.join(work, "out")))
+            words = ["--state", arguments.state, *arguments.options, arguments.folder]
+            runs.append(segment(arguments, parts, seed, os.path.join(work, "out"), words))
             if not shapes[0].face_of:
                 continue
             figures = landmark_figures(shapes, runs[-1])

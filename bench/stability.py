@@ -19,28 +19,16 @@ import argparse
 import os
 import random
 import statistics
-import subprocess
 import sys
 import tempfile
 
 import numpy
 
 from accuracy import find_sets, generated_sets, markdown, random_rotation, turn_off, write_whole
-from consistency import Shape, agreement, read_labels
-from examples import score
+from consistency import Shape, agreement, segment
+from examples import add_set_arguments, score
 
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 CASES = ("halves", "shuffled", "turned")
-
-
-def segment(arguments, meshes, parts, out):
-    command = ["mpirun", "--oversubscribe", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html",
-               "--no-keep-model", "--force", "--parts", str(parts), "--seed", str(arguments.seed), "--out", out, *meshes]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"stability: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
-    labels = os.path.join(out, "labels")
-    return {file[:-4]: read_labels(os.path.join(labels, file)) for file in os.listdir(labels) if file.endswith(".seg")}
 
 
 def shuffle_off(source, target, order):
@@ -61,8 +49,8 @@ def face_order(name, count):
 
 def run_halves(arguments, folder, shapes, parts, work):
     """Runs of the two halves, each as labels by shape."""
-    return [segment(arguments, [os.path.join(folder, shape.name + ".off") for shape in shapes[first::2]], parts,
-                    os.path.join(work, "out")) for first in (0, 1)]
+    return [segment(arguments, parts, arguments.seed, os.path.join(work, "out"),
+                    [os.path.join(folder, shape.name + ".off") for shape in shapes[first::2]]) for first in (0, 1)]
 
 
 def run_shuffled(arguments, folder, shapes, parts, work):
@@ -71,7 +59,7 @@ def run_shuffled(arguments, folder, shapes, parts, work):
     for shape in shapes:
         shuffle_off(os.path.join(folder, shape.name + ".off"), os.path.join(made, shape.name + ".off"),
                     face_order(shape.name, len(shape.faces)))
-    run = segment(arguments, [made], parts, os.path.join(work, "out"))
+    run = segment(arguments, parts, arguments.seed, os.path.join(work, "out"), [made])
     for name, labels in run.items():
         carried = numpy.empty_like(labels)
         carried[face_order(name, len(labels))] = labels
@@ -85,7 +73,7 @@ def run_turned(arguments, folder, shapes, parts, work):
     for shape in shapes:
         file = shape.name + ".off"
         turn_off(os.path.join(folder, file), os.path.join(made, file), random_rotation(file))
-    return [segment(arguments, [made], parts, os.path.join(work, "out"))]
+    return [segment(arguments, parts, arguments.seed, os.path.join(work, "out"), [made])]
 
 
 RUNS = {"halves": run_halves, "shuffled": run_shuffled, "turned": run_turned}
@@ -105,7 +93,7 @@ def measure(arguments, sample):
     folder, parts = sample["meshes"][0], sample["parts"]
     shapes = [Shape(folder, file[:-4]) for file in sorted(os.listdir(folder)) if file.endswith(".off")]
     with tempfile.TemporaryDirectory() as work:
-        whole = segment(arguments, [folder], parts, os.path.join(work, "out"))
+        whole = segment(arguments, parts, arguments.seed, os.path.join(work, "out"), [folder])
         row = [f"{accuracy_of(arguments, folder, sample['truth'], whole, work):.1f}"]
         for case in arguments.cases:
             runs = RUNS[case](arguments, folder, shapes, parts, work)
@@ -118,17 +106,10 @@ def measure(arguments, sample):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
-    parser.add_argument("--data", default=os.environ.get("COSEG_DATA"))
-    parser.add_argument("--sets", nargs="+")
+    add_set_arguments(parser)
     parser.add_argument("--generated", nargs="+", metavar=("SHAPES", "FAMILY"))
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
-    parser.add_argument("--table")
     arguments = parser.parse_args()
-    if not arguments.data and not arguments.generated:
-        sys.exit("stability: give the folder of sets with --data or COSEG_DATA, or --generated")
     with tempfile.TemporaryDirectory() as scratch:
         if arguments.generated:
             shapes, *families = arguments.generated

@@ -52,9 +52,8 @@ clang_has_sanitizers() {
         clang++ -fsanitize=fuzzer,address,undefined -x c++ -o "$build/sanitizer_probe" - 2>/dev/null
 }
 
-packages=("${coseg_packages[@]}" "${coseg_python_packages[@]}" "${coseg_test_packages[@]}")
 mkdir -p "$build"
-install_missing "$build/install.log" "${packages[@]}"
+install_missing "$build/install.log" "${coseg_packages[@]}" "${coseg_python_packages[@]}" "${coseg_test_packages[@]}"
 configure "${options[@]}"
 echo "building the program and its tests in $build"
 build_target all

@@ -61,7 +61,8 @@ void WordSearch::pack_words() {
     const Eigen::Index groups = (words_.cols() + group_columns - 1) / group_columns;
     word_groups_.assign(at(groups * group_columns * dims), 0.0F);
     for (Eigen::Index w = 0; w < words_.cols(); ++w) {
-        float* to = word_groups_.data() + w / group_columns * dims * group_columns + w % group_columns;
+        float* to =
+            column_in_groups(word_groups_.data(), static_cast<int>(w), static_cast<int>(words_.rows()));
         for (Eigen::Index d = 0; d < dims; ++d) to[d * group_columns] = words_(d, w);
     }
 }

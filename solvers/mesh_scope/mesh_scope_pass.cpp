@@ -15,7 +15,6 @@ namespace coseg {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double single_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 
 }  // namespace
 
@@ -85,13 +84,9 @@ MeshScopePass::MeshScopePass(const Comm& comm, const FeatureStack& stack, const 
       penalties_(penalties),
       panels_(comm, stack, meshes.group_begin),
       scorer_(scorer(stack, panels_)),
-      prices_(at(stack.features) * at(panels_.count()) * panel_rows, static_cast<float>(penalties.beta)) {
+      prices_(at(stack.features) * at(panels_.count()) * panel_rows, static_cast<float>(penalties.beta)),
+      largest_norm_(stack.largest_norms()) {
     scorer_->set_prices(prices_);
-    for (int h = 0; h < stack.features; ++h) {
-        double largest = 0.0;
-        for (Eigen::Index i = 0; i < stack.size; ++i) largest = std::max(largest, stack.norm(h, i));
-        largest_norm_.push_back(largest);
-    }
 }
 
 /// Writes the dual u = 2 (x - z) of the column, D values.
@@ -190,13 +185,8 @@ void MeshScopePass::look_at_panel(std::vector<Survey>& surveys, int group, int p
 }
 
 void MeshScopePass::score_panels(std::vector<Survey>& surveys, int group) {
-    const int batch = scorer_->batch_panels();
-    const int end = panels_.first_panel(group + 1);
-    for (int first = panels_.first_panel(group); first < end; first += batch) {
-        const int count = std::min(batch, end - first);
-        scorer_->score(first, count, scores_);
-        for (int p = 0; p < count; ++p) look_at_panel(surveys, group, first + p, p);
-    }
+    score_in_batches(*scorer_, panels_.first_panel(group), panels_.first_panel(group + 1), scores_,
+                     [&](int panel, int place) { look_at_panel(surveys, group, panel, place); });
 }
 
 void MeshScopePass::score_in_double(std::vector<Survey>& surveys, int group, const Eigen::MatrixXd& duals) {

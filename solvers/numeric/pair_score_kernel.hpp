@@ -27,6 +27,13 @@ struct ScoredColumns {
     int groups;
 };
 
+/// Where the values of a column lie in groups of columns of `depth` values: the first one; each of the others
+/// is group_columns after the one before it.
+template <class Float>
+Float* column_in_groups(Float* groups, int column, int depth) {
+    return groups + std::int64_t{column / group_columns} * depth * group_columns + column % group_columns;
+}
+
 /// The results, column by column, panel_rows values each.
 struct PairScores {
     float* scores;

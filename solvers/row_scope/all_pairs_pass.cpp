@@ -25,7 +25,6 @@ int tile_columns(const FeatureStack& stack) {
     return (stack.size <= few_rows ? 2 : 4) * static_cast<int>(coefficient_tile);
 }
 static_assert(coefficient_tile % group_columns == 0);
-constexpr double single_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 /// Pairs whose norm, with a rounding error on top, exceeds its limit by less than so many are looked at again
 /// in double.
 constexpr double doubtful = 5.0;
@@ -70,16 +69,11 @@ AllPairsPass::AllPairsPass(const Comm& comm, const SubspaceProblem& problem, con
       rounding_(single_rounding * (longest_feature(stack) + 8)),
       panels_(comm, stack, std::array{0, stack.size}),
       scorer_(scorer(stack, panels_)),
+      largest_norm_(stack.largest_norms()),
       padded_rows_(at(panels_.count()) * panel_rows),
       low_prices_(at(stack.features) * padded_rows_, std::numeric_limits<float>::max()),
       tile_(std::make_unique<Tile>()),
-      pair_scores_(at(stack.features)) {
-    for (int h = 0; h < stack.features; ++h) {
-        double largest = 0.0;
-        for (Eigen::Index i = 0; i < stack.size; ++i) largest = std::max(largest, stack.norm(h, i));
-        largest_norm_.push_back(largest);
-    }
-}
+      pair_scores_(at(stack.features)) {}
 
 AllPairsPass::~AllPairsPass() = default;
 
@@ -182,13 +176,9 @@ void AllPairsPass::start_tile(const WorkingSet& working, std::int64_t begin, Til
 template <class Look>
 void AllPairsPass::for_each_scored_panel(Tile& tile, const Look& look) {
     scorer_->set_columns(tile.duals);
-    const int batch = scorer_->batch_panels();
-    for (int first = 0; first < panels_.count(); first += batch) {
-        const int count = std::min(batch, panels_.count() - first);
-        scorer_->score(first, count, tile.scores);
-        for (int p = 0; p < count; ++p)
-            look(ScoredPanel{panels_.first_row(first + p), panels_.row_bits(first + p), p});
-    }
+    score_in_batches(*scorer_, 0, panels_.count(), tile.scores, [&](int panel, int place) {
+        look(ScoredPanel{panels_.first_row(panel), panels_.row_bits(panel), place});
+    });
 }
 
 void AllPairsPass::keep(const Tile& tile, int column, int row, double norm) {

@@ -63,6 +63,14 @@ FeatureStack::FeatureStack(FeatureMatrices given)
     squared_norm = squares.sum + squares.lost;
 }
 
+std::vector<double> FeatureStack::largest_norms() const {
+    std::vector<double> largest(at(features), 0.0);
+    for (int h = 0; h < features; ++h) {
+        for (Eigen::Index i = 0; i < size; ++i) largest[at(h)] = std::max(largest[at(h)], norm(h, i));
+    }
+    return largest;
+}
+
 FeatureStack stack_features(const SubspaceProblem& problem) { return FeatureStack(problem.features); }
 
 FeatureStack stack_features(const Comm& comm, const SubspaceProblem& problem, std::span<const int> order) {

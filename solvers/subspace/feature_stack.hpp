@@ -30,6 +30,8 @@ struct FeatureStack {
 
     [[nodiscard]] int rows_of(int h) const noexcept { return offset[at(h) + 1] - offset[at(h)]; }
     [[nodiscard]] const double* feature(int h) const noexcept { return columns.data() + offset[at(h)]; }
+    /// Per feature, the largest norm of a column.
+    [[nodiscard]] std::vector<double> largest_norms() const;
     /// An upper bound of |computed - exact| / (||x|| ||y||) for an inner product of dimension D in double.
     [[nodiscard]] double inner_product_error() const noexcept;
 };

@@ -16,11 +16,10 @@ void DualColumns::reset(const FeatureStack& stack, int columns) {
 }
 
 void DualColumns::set(int column, const double* dual, const double* errors) {
-    const int group = column / group_columns;
     for (std::size_t h = 0; h + 1 < offset_.size(); ++h) {
         const int depth = offset_[h + 1] - offset_[h];
-        float* to = values_.data() + static_cast<std::ptrdiff_t>(offset_[h]) * columns() +
-                    static_cast<std::ptrdiff_t>(group) * depth * group_columns + column % group_columns;
+        float* to = column_in_groups(values_.data() + static_cast<std::ptrdiff_t>(offset_[h]) * columns(),
+                                     column, depth);
         for (int k = 0; k < depth; ++k)
             to[static_cast<std::ptrdiff_t>(k) * group_columns] = static_cast<float>(dual[offset_[h] + k]);
         errors_[h * at(columns()) + at(column)] = static_cast<float>(errors[h]);
@@ -49,22 +48,12 @@ std::int64_t PanelScores::feature_stride() const noexcept {
     return static_cast<std::int64_t>(columns_) * panel_rows;
 }
 
-float* PanelScores::scores(int panel, int h, int column) {
-    return scores_.data() + (static_cast<std::int64_t>(panel) * features_ + h) * feature_stride() +
-           static_cast<std::ptrdiff_t>(column) * panel_rows;
+std::int64_t PanelScores::scores_place(int panel, int h, int column) const noexcept {
+    return (std::int64_t{panel} * features_ + h) * feature_stride() + std::int64_t{column} * panel_rows;
 }
 
-const float* PanelScores::scores(int panel, int h, int column) const {
-    return scores_.data() + (static_cast<std::int64_t>(panel) * features_ + h) * feature_stride() +
-           static_cast<std::ptrdiff_t>(column) * panel_rows;
-}
-
-float* PanelScores::squares(int panel, int column) {
-    return squares_.data() + panel * feature_stride() + static_cast<std::ptrdiff_t>(column) * panel_rows;
-}
-
-const float* PanelScores::squares(int panel, int column) const {
-    return squares_.data() + panel * feature_stride() + static_cast<std::ptrdiff_t>(column) * panel_rows;
+std::int64_t PanelScores::squares_place(int panel, int column) const noexcept {
+    return panel * feature_stride() + std::int64_t{column} * panel_rows;
 }
 
 namespace {

@@ -2,7 +2,10 @@
 // The seam between the passes over all pairs and what computes their scores. The processor's kernel is behind
 // it; a graphics card could be.
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -40,15 +43,26 @@ class PanelScores {
     /// Keeps its memory where there is enough. Values are undefined.
     void resize(int panels, int features, int columns);
     /// x_hi . u_hj, one array of columns after the other.
-    [[nodiscard]] float* scores(int panel, int h, int column);
-    [[nodiscard]] const float* scores(int panel, int h, int column) const;
+    [[nodiscard]] float* scores(int panel, int h, int column) {
+        return scores_.data() + scores_place(panel, h, column);
+    }
+    [[nodiscard]] const float* scores(int panel, int h, int column) const {
+        return scores_.data() + scores_place(panel, h, column);
+    }
     /// sum_h (x_hi . u_hj + error_hj - price_hi)_+^2
-    [[nodiscard]] float* squares(int panel, int column);
-    [[nodiscard]] const float* squares(int panel, int column) const;
+    [[nodiscard]] float* squares(int panel, int column) {
+        return squares_.data() + squares_place(panel, column);
+    }
+    [[nodiscard]] const float* squares(int panel, int column) const {
+        return squares_.data() + squares_place(panel, column);
+    }
     /// From the scores of one feature to those of the next, of the same panel, row and column.
     [[nodiscard]] std::int64_t feature_stride() const noexcept;
 
   private:
+    [[nodiscard]] std::int64_t scores_place(int panel, int h, int column) const noexcept;
+    [[nodiscard]] std::int64_t squares_place(int panel, int column) const noexcept;
+
     int features_ = 0;
     int columns_ = 0;
     std::vector<float> scores_;
@@ -79,6 +93,21 @@ class PairScorer {
     /// any value.
     virtual void score(int first, int count, PanelScores& to) = 0;
 };
+
+/// Scores the panels begin .. end - 1 in batches, and calls look(panel, place) for each while its scores are
+/// at this place.
+template <class Look>
+void score_in_batches(PairScorer& scorer, int begin, int end, PanelScores& scores, const Look& look) {
+    const int batch = scorer.batch_panels();
+    for (int first = begin; first < end; first += batch) {
+        const int count = std::min(batch, end - first);
+        scorer.score(first, count, scores);
+        for (int p = 0; p < count; ++p) look(first + p, p);
+    }
+}
+
+/// The rounding of a number to single precision, relative to it.
+inline constexpr double single_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 
 /// Makes a scorer of the rows of `panels`, which outlive it, as does the stack.
 using PairScorerFactory =
