@@ -80,6 +80,7 @@ struct ReportPartition {
     std::vector<double> eigenvalues;  ///< of the chosen start's graph
     std::vector<double> residuals;    ///< norms of the residuals of their eigenvectors
     std::vector<StartOutcome> starts;
+    int starts_left_out = 0;  ///< after a look at a sample of the shapes
     int chosen_start = 0;
     ReportPlaces places;
     std::vector<double> part_area;              ///< mean over shapes of each part's share of the area
@@ -90,6 +91,7 @@ struct ReportPartition {
         return std::tuple(
             field("eigenvalues", &ReportPartition::eigenvalues),
             field("residuals", &ReportPartition::residuals), field("starts", &ReportPartition::starts),
+            field("starts_left_out", &ReportPartition::starts_left_out),
             field("chosen_start", &ReportPartition::chosen_start), field("places", &ReportPartition::places),
             field("part_area", &ReportPartition::part_area),
             field("part_count", &ReportPartition::part_count), field("unions", &ReportPartition::unions),

@@ -45,6 +45,12 @@ void warn_of_degenerate_parts(const CutResult& cut, int parts, int meshes, const
              std::to_string(std::max(2, kept)));
 }
 
+std::string describe_starts(const CutResult& cut) {
+    const auto starts = static_cast<std::int64_t>(cut.starts.size());
+    if (cut.starts_left_out == 0) return with_unit(starts, "start", "starts");
+    return std::to_string(starts) + " of " + with_unit(starts + cut.starts_left_out, "start", "starts");
+}
+
 Partitioned partition_whole(const Comm& comm, const Collection& collection, PatchFeatures features,
                             const PartitionTask& task, StageLog& log) {
     log.begin("optimise");
@@ -61,8 +67,7 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     const auto parts = static_cast<int>(cut.part_share.size());
     const std::string counted =
         cut.part_counts.empty() ? std::string() : "; auto: " + part_count_sentence(cut.part_counts);
-    log.end(with_unit(static_cast<std::int64_t>(cut.starts.size()), "start", "starts") + ", " +
-            std::to_string(parts) + " parts" + counted);
+    log.end(describe_starts(cut) + ", " + std::to_string(parts) + " parts" + counted);
     warn_of_degenerate_parts(cut, parts, static_cast<int>(collection.meshes.size()), log);
     return {std::move(optimisation), std::move(cut), std::move(alignment)};
 }

@@ -120,6 +120,7 @@ ReportPartition report_partition(const CutResult& cut, const Eigen::MatrixXd& pa
     report.eigenvalues = cut.eigenvalues;
     report.residuals = cut.residuals;
     report.starts = cut.starts;
+    report.starts_left_out = cut.starts_left_out;
     report.chosen_start = cut.chosen;
     report.places = {cut.frame.directions.colwise().normalized(), cut.frame.correlation};
     report.part_area = to_vector(part_areas.rowwise().mean());

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "solvers/partition/part_shares.hpp"
@@ -95,12 +96,26 @@ std::vector<Partial> next_step(const std::vector<Partial>& partials, int beam) {
     return next;
 }
 
+/// Worth more than everything else that speaks for a partition.
+constexpr double cost_of_degenerate_part = 1e4;
+
+/// The value of a part, less a cost where it is hardly one (is_degenerate_part).
+double value_in_result(const ClusterSums& clusters, std::span<const int> members) {
+    Eigen::VectorXd share = Eigen::VectorXd::Zero(clusters.share.cols());
+    for (const int c : members) share += clusters.share.row(c).transpose();
+    const auto present = static_cast<int>((share.array() > 0.0).count());
+    const double value = value_of_part(clusters, members);
+    return is_degenerate_part(share.mean(), present, static_cast<int>(share.size()))
+               ? value - cost_of_degenerate_part
+               : value;
+}
+
 /// Moves whole clusters between the parts of a finished result.
 class ClusterMoves {
   public:
     ClusterMoves(const ClusterSums& clusters, std::vector<int> part, int parts)
         : clusters_(clusters), part_(std::move(part)), parts_(parts), alone_(part_.size()) {
-        for (int c = 0; c < clusters_.count(); ++c) alone_[at(c)] = value_of_part(clusters_, std::array{c});
+        for (int c = 0; c < clusters_.count(); ++c) alone_[at(c)] = value_in_result(clusters_, std::array{c});
     }
 
     void run() {
@@ -137,11 +152,11 @@ class ClusterMoves {
 
     void look() {
         value_.assign(at(parts_), 0.0);
-        for (int p = 0; p < parts_; ++p) value_[at(p)] = value_of_part(clusters_, members(p));
+        for (int p = 0; p < parts_; ++p) value_[at(p)] = value_in_result(clusters_, members(p));
         left_.assign(part_.size(), -std::numeric_limits<double>::infinity());
         for (int c = 0; c < clusters_.count(); ++c) {
             const std::vector<int> rest = members(part_[at(c)], c);
-            if (!rest.empty()) left_[at(c)] = value_of_part(clusters_, rest) - value_[at(part_[at(c)])];
+            if (!rest.empty()) left_[at(c)] = value_in_result(clusters_, rest) - value_[at(part_[at(c)])];
         }
     }
 
@@ -151,7 +166,7 @@ class ClusterMoves {
             for (int p = 0; p < parts_ && left_[at(c)] > -std::numeric_limits<double>::infinity(); ++p) {
                 if (p == part_[at(c)]) continue;
                 const double gain =
-                    left_[at(c)] + value_of_part(clusters_, members(p, -1, c)) - value_[at(p)];
+                    left_[at(c)] + value_in_result(clusters_, members(p, -1, c)) - value_[at(p)];
                 if (gain > best.gain) best = {gain, c, p, -1};
             }
         }
@@ -164,7 +179,7 @@ class ClusterMoves {
             for (int q = p + 1; q < parts_; ++q) {
                 std::vector<int> both = members(p);
                 for (const int c : members(q)) both.push_back(c);
-                const double united = value_of_part(clusters_, both) - value_[at(p)] - value_[at(q)];
+                const double united = value_in_result(clusters_, both) - value_[at(p)] - value_[at(q)];
                 for (int c = 0; c < clusters_.count(); ++c) {
                     if (part_[at(c)] == p || part_[at(c)] == q) continue;
                     const double gain = united + left_[at(c)] + alone_[at(c)];

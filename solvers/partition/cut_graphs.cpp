@@ -1,15 +1,11 @@
 #include "solvers/partition/cut_graphs.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace coseg {
 
 namespace {
-
-SparseRows base_affinity(const Comm& comm, const GraphInput& input, const GraphOptions& options) {
-    SparseRows base = options.form == AffinityForm::formula_8 ? symmetric_affinity(comm, input.coefficients)
-                                                              : normalized_links(comm, input.coefficients);
-    if (options.minima_rule) apply_minima_rule(base, input.neighbors);
-    return base;
-}
 
 void find_places(const Comm& comm, const GraphInput& input, double base_total, GraphTerms& terms) {
     terms.frame = position_frame(comm, terms.base, *input.positions, input.mesh_of);
@@ -20,14 +16,28 @@ void find_places(const Comm& comm, const GraphInput& input, double base_total, G
 
 }  // namespace
 
-GraphTerms graph_terms(const Comm& comm, const GraphInput& input, const GraphOptions& options) {
+bool asks_for_positions(const std::vector<CutStart>& starts) {
+    return std::any_of(starts.begin(), starts.end(),
+                       [](const CutStart& start) { return start.graph.placed; });
+}
+
+SparseRows base_affinity(const Comm& comm, const SparseCoefficients& coefficients,
+                         const std::vector<GlobalPatchNeighbors>& neighbors, const GraphOptions& options) {
+    SparseRows base = options.form == AffinityForm::formula_8 ? symmetric_affinity(comm, coefficients)
+                                                              : normalized_links(comm, coefficients);
+    if (options.minima_rule) apply_minima_rule(base, neighbors);
+    return base;
+}
+
+GraphTerms graph_terms(const Comm& comm, SparseRows base, const GraphInput& input,
+                       const GraphOptions& options) {
     const Comm self(MPI_COMM_SELF);
     const auto size = static_cast<std::int64_t>(input.mesh_of.size());
     const BlockRange all{0, size};
     GraphTerms terms;
     const SparseRows adjacency = adjacency_affinity(all, input.neighbors, input.mesh_of);
     const SparseRows overlap = overlap_affinity(all, input.overlaps, size);
-    terms.base = base_affinity(comm, input, options);
+    terms.base = std::move(base);
     const double base_total = total(comm, terms.base);
     const double reference = base_total > 0.0 ? base_total : static_cast<double>(size);
     const double adjacency_total = total(self, adjacency);

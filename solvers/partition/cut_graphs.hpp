@@ -13,9 +13,8 @@
 
 namespace coseg {
 
-/// The data of which graphs are made; as in CutInput.
+/// What graphs are made of beside the links; as in CutInput.
 struct GraphInput {
-    const SparseCoefficients& coefficients;
     const std::vector<GlobalPatchNeighbors>& neighbors;  ///< of all meshes
     const std::vector<GlobalPatchOverlap>& overlaps;     ///< likewise
     const std::vector<int>& mesh_of;
@@ -25,7 +24,6 @@ struct GraphInput {
 struct GraphOptions {
     AffinityForm form = AffinityForm::links;
     bool minima_rule = true;
-    double drop_below = 0.0;
     bool placed = false;    ///< a graph is weighed by position
     bool complete = false;  ///< every rank holds all rows of all graphs
 };
@@ -42,8 +40,16 @@ struct GraphTerms {
     SparseRows within_mesh_affinity;  ///< A' + O', complete: what a patch set aside follows
 };
 
-/// Collective. The rows of the terms are those of the coefficients' columns, or all if `complete`.
-GraphTerms graph_terms(const Comm& comm, const GraphInput& input, const GraphOptions& options);
+/// Whether a start's graph is weighed by position.
+bool asks_for_positions(const std::vector<CutStart>& starts);
+
+/// The links of which all graphs are made; rows as the coefficients' columns. Collective.
+SparseRows base_affinity(const Comm& comm, const SparseCoefficients& coefficients,
+                         const std::vector<GlobalPatchNeighbors>& neighbors, const GraphOptions& options);
+
+/// The rows of the terms are those of the base, or all if `complete`. Collective.
+GraphTerms graph_terms(const Comm& comm, SparseRows base, const GraphInput& input,
+                       const GraphOptions& options);
 
 /// The graph of these weights, rows as those of the terms. Serial.
 SparseRows graph_of(const GraphTerms& terms, const GraphInput& input, GraphWeights weights,

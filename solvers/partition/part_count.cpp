@@ -184,7 +184,7 @@ CountedParts count_parts(const Comm& comm, const CutInput& input, CutOptions opt
     options.parts = least_part_count;
     options.starts = counting_starts(options.starts);
     const auto [neighbors, overlaps, terms, one_rank, links_count] = cut_graphs(comm, input, options);
-    const GraphInput graphs{input.coefficients, neighbors, overlaps, input.mesh_of, input.positions};
+    const GraphInput graphs{neighbors, overlaps, input.mesh_of, input.positions};
     const PartitionEvidence evidence{neighbors,     overlaps,         input.descriptors,
                                      input.mesh_of, input.patch_area, links_count ? &terms.base : nullptr};
     const PartitionObjective objective = partition_objective(evidence, options.choice);

@@ -41,7 +41,13 @@ void describe_outcome(const SearchTask& task, PartitionCandidate& result) {
     describe_labels(task, result);
 }
 
-/// Merges the clusters into parts in several ways, of which the one with the best score is taken.
+/// Partitions without degenerate parts are better than those with some, and of two alike the one with the
+/// higher score is.
+bool is_better(const StartOutcome& a, const StartOutcome& b) {
+    return a.degenerate != b.degenerate ? b.degenerate : a.score > b.score;
+}
+
+/// Merges the clusters into parts in several ways, of which the best is taken.
 PartitionCandidate merged(const SearchTask& task, const PartitionCandidate& clustering) {
     const int clusters = 1 + *std::max_element(clustering.labels.begin(), clustering.labels.end());
     if (clusters <= task.parts) {
@@ -55,7 +61,7 @@ PartitionCandidate merged(const SearchTask& task, const PartitionCandidate& clus
         PartitionCandidate result = clustering;
         for (int& label : result.labels) label = part_of[at(label)];
         describe_outcome(task, result);
-        if (!best || result.outcome.score > best->outcome.score) best = std::move(result);
+        if (!best || is_better(result.outcome, best->outcome)) best = std::move(result);
     }
     return std::move(*best);
 }
@@ -69,9 +75,9 @@ PartitionCandidate improved(const SearchTask& task, PartitionCandidate outcome) 
     after.labels = std::move(moved.labels);
     after.outcome.moved = moved.moved;
     describe_outcome(task, after);
-    const bool is_better =
+    const bool helps =
         after.outcome.score > outcome.outcome.score && after.outcome.degenerate <= outcome.outcome.degenerate;
-    return is_better ? std::move(after) : std::move(outcome);
+    return helps ? std::move(after) : std::move(outcome);
 }
 
 /// Outcomes with the most parts, none of them degenerate; or, if there are none, the others with the most.
@@ -89,22 +95,10 @@ std::vector<char> eligible_outcomes(const std::vector<PartitionCandidate>& outco
     return eligible;
 }
 
-/// Numbers of outcomes: the eligible ones first, then by falling score, of equal ones the first.
-std::vector<std::size_t> ranking(const std::vector<PartitionCandidate>& outcomes) {
-    const std::vector<char> eligible = eligible_outcomes(outcomes);
-    std::vector<std::size_t> order(outcomes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        if (eligible[a] != eligible[b]) return eligible[a] > eligible[b];
-        return outcomes[a].outcome.score > outcomes[b].outcome.score;
-    });
-    return order;
-}
-
 /// The different partitions among the best.
 std::vector<std::size_t> best_outcomes(const std::vector<PartitionCandidate>& outcomes) {
     std::vector<std::size_t> best;
-    for (const std::size_t k : ranking(outcomes)) {
+    for (const std::size_t k : ranked_candidates(outcomes)) {
         const bool is_new = std::none_of(best.begin(), best.end(), [&](std::size_t other) {
             return outcomes[other].labels == outcomes[k].labels;
         });
@@ -131,8 +125,15 @@ std::vector<PartitionCandidate> search_partitions(const Comm& comm, const Search
     return outcomes;
 }
 
-std::size_t best_candidate(const std::vector<PartitionCandidate>& candidates) {
-    return ranking(candidates).front();
+std::vector<std::size_t> ranked_candidates(const std::vector<PartitionCandidate>& candidates) {
+    const std::vector<char> eligible = eligible_outcomes(candidates);
+    std::vector<std::size_t> order(candidates.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        if (eligible[a] != eligible[b]) return eligible[a] > eligible[b];
+        return candidates[a].outcome.score > candidates[b].outcome.score;
+    });
+    return order;
 }
 
 namespace {

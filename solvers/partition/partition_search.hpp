@@ -41,9 +41,9 @@ struct SearchTask {
 std::vector<PartitionCandidate> search_partitions(const Comm& comm, const SearchTask& task,
                                                   std::vector<PartitionCandidate> clusterings);
 
-/// The number of the candidate to take: of those with the most parts, none of them degenerate, the one with
-/// the highest score; or, if there is none, of the degenerate ones.
-std::size_t best_candidate(const std::vector<PartitionCandidate>& candidates);
+/// The numbers of the candidates, the best first: those with the most parts that are not degenerate, or all
+/// with the most parts if there is none, by falling score; then the others likewise. Of equal ones the first.
+std::vector<std::size_t> ranked_candidates(const std::vector<PartitionCandidate>& candidates);
 
 /// The candidate after expansions of its parts (climb_by_expansion). Degenerate parts come of these only
 /// where there were some. Collective.

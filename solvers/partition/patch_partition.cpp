@@ -11,6 +11,7 @@
 #include "solvers/partition/part_shares.hpp"
 #include "solvers/partition/partition_search.hpp"
 #include "solvers/partition/start_clusterings.hpp"
+#include "solvers/partition/start_screening.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -18,11 +19,6 @@
 namespace coseg {
 
 namespace {
-
-bool asks_for_positions(const CutOptions& options) {
-    return std::any_of(options.starts.begin(), options.starts.end(),
-                       [](const CutStart& start) { return start.graph.placed; });
-}
 
 void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOptions& options) {
     agree(comm, [&] {
@@ -43,7 +39,8 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
             (input.features == nullptr || input.features->columns() != patches ||
              input.examples->area.cols() != patches || input.examples->area.rows() != options.parts))
             throw Error(ExitCode::internal, "examples and features of the cut are not of all patches");
-        if (asks_for_positions(options) && (input.positions == nullptr || input.positions->cols() != patches))
+        if (asks_for_positions(options.starts) &&
+            (input.positions == nullptr || input.positions->cols() != patches))
             throw Error(ExitCode::internal, "a start of the cut uses positions, but not every patch has one");
     });
 }
@@ -62,7 +59,7 @@ Found found_alone(const Comm& comm, const PartitionEvidence& evidence, const Cut
     const SearchTask task{evidence, objective, options.choice, options.parts};
     Found found;
     found.candidates = search_partitions(comm, task, std::move(clusterings));
-    found.chosen = best_candidate(found.candidates);
+    found.chosen = ranked_candidates(found.candidates).front();
     PartitionCandidate& chosen = found.candidates[found.chosen];
     if (options.starts.size() > 1) {
         chosen = expanded(comm, task, std::move(chosen));
@@ -106,7 +103,7 @@ Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvi
         found.candidates = search_partitions(comm, {sought, objective, options.choice, options.parts},
                                              std::move(clusterings));
     }
-    found.chosen = best_candidate(found.candidates);
+    found.chosen = ranked_candidates(found.candidates).front();
     const PartitionObjective objective = partition_objective(evidence, options.choice);
     const KnownParts known = known_parts(scores, *input.examples, input.patch_area, options.examples);
     PartitionCandidate& chosen = found.candidates[found.chosen];
@@ -215,13 +212,12 @@ CutGraphs cut_graphs(const Comm& comm, const CutInput& input, const CutOptions& 
     cut.links_count = cut.one_rank && options.choice.links > 0.0;
     cut.neighbors = gather_patch_pairs(comm, input.neighbors_local, patches);
     cut.overlaps = gather_patch_pairs(comm, input.overlaps_local, patches);
-    cut.terms =
-        graph_terms(comm, {input.coefficients, cut.neighbors, cut.overlaps, input.mesh_of, input.positions},
-                    {.form = options.form,
-                     .minima_rule = options.minima_rule,
-                     .drop_below = options.drop_below,
-                     .placed = asks_for_positions(options),
-                     .complete = cut.one_rank});
+    const GraphOptions graphs{.form = options.form,
+                              .minima_rule = options.minima_rule,
+                              .placed = asks_for_positions(options.starts),
+                              .complete = cut.one_rank};
+    cut.terms = graph_terms(comm, base_affinity(comm, input.coefficients, cut.neighbors, graphs),
+                            {cut.neighbors, cut.overlaps, input.mesh_of, input.positions}, graphs);
     return cut;
 }
 
@@ -242,16 +238,21 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
         return result;
     }
     const auto [neighbors, overlaps, terms, one_rank, links_count] = cut_graphs(comm, input, options);
-    const GraphInput graphs{input.coefficients, neighbors, overlaps, input.mesh_of, input.positions};
+    const GraphInput graphs{neighbors, overlaps, input.mesh_of, input.positions};
     const PartitionEvidence evidence{neighbors,     overlaps,         input.descriptors,
                                      input.mesh_of, input.patch_area, links_count ? &terms.base : nullptr};
-    const ClusteringTask clustering{graphs,       terms, options.starts, options.spectral, options.drop_below,
+    const ClusteringTask all_starts{graphs,       terms, options.starts, options.spectral, options.drop_below,
+                                    options.parts};
+    const std::vector<CutStart> starts =
+        promising_starts(comm, all_starts, evidence, options.choice, options.screening);
+    const ClusteringTask clustering{graphs,       terms, starts, options.spectral, options.drop_below,
                                     options.parts};
     std::vector<PartitionCandidate> clusters = start_clusterings(comm, clustering, one_rank);
     Found found = input.examples == nullptr
                       ? found_alone(comm, evidence, options, std::move(clusters))
                       : found_by_examples(comm, input, {evidence, terms.frame}, options, std::move(clusters));
     CutResult result = described(input, options.parts, terms.frame, std::move(found));
+    result.starts_left_out = static_cast<int>(options.starts.size() - starts.size());
     if (options.starts.size() > 1 && input.features != nullptr && !input.features->empty())
         result.scores = part_scores(
             comm, {*input.features, input.positions, terms.frame, input.patch_area, input.mesh_of},

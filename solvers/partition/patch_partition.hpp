@@ -12,6 +12,7 @@
 #include "solvers/partition/labelled_parts.hpp"
 #include "solvers/partition/nested_levels.hpp"
 #include "solvers/partition/partition_terms.hpp"
+#include "solvers/partition/start_screening.hpp"
 #include "solvers/spectral/spectral_embedding.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
@@ -56,8 +57,9 @@ struct CutOptions {
     double drop_below = 0.0;       ///< entries of S below this are dropped; the paper's code has 1e-6
     SpectralOptions spectral;      ///< the paper's code has offset 0.5
     std::vector<CutStart> starts;  ///< at least one
-    int finest_level = 0;          ///< parts of the finest level of CutResult::tree; 0: no tree is made
-    PartitionsByNumber guides;     ///< that the levels of the tree should agree with; may be empty
+    StartScreening screening;
+    int finest_level = 0;       ///< parts of the finest level of CutResult::tree; 0: no tree is made
+    PartitionsByNumber guides;  ///< that the levels of the tree should agree with; may be empty
     ChoiceWeights choice;
     ExampleWeights examples;
     /// Up to this number of entries of the base affinity, a start is the work of one rank, which takes about

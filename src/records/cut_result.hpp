@@ -27,6 +27,7 @@ struct CutResult {
     std::vector<PartCountFigures>
         part_counts;                   ///< by falling merit; empty where the number of parts was given
     std::vector<StartOutcome> starts;  ///< in the order in which they were asked for
+    int starts_left_out = 0;  ///< which a sample of the meshes showed not to win, and which have no outcome
     /// of the chosen start's graph, descending, one for each of its clusters.
     std::vector<double> eigenvalues;
     /// norms of the residuals of their eigenvectors, as the solver estimates them; 0 where they are known.
@@ -34,15 +35,16 @@ struct CutResult {
     PositionFrame frame;  ///< of the base; without correlation where no start is placed
     int chosen = 0;       ///< the start taken: best_partition of those with the most parts
     static constexpr auto fields() {
-        return std::tuple(field("part_of_patch", &CutResult::part_of_patch, Storage::compressed),
-                          field("confidence", &CutResult::confidence, Storage::compressed),
-                          field("scores", &CutResult::scores, Storage::compressed),
-                          field("part_share", &CutResult::part_share), field("tree", &CutResult::tree),
-                          field("part_counts", &CutResult::part_counts),
-                          field("meshes_with_part", &CutResult::meshes_with_part),
-                          field("starts", &CutResult::starts), field("eigenvalues", &CutResult::eigenvalues),
-                          field("residuals", &CutResult::residuals), field("positions", &CutResult::frame),
-                          field("chosen", &CutResult::chosen));
+        return std::tuple(
+            field("part_of_patch", &CutResult::part_of_patch, Storage::compressed),
+            field("confidence", &CutResult::confidence, Storage::compressed),
+            field("scores", &CutResult::scores, Storage::compressed),
+            field("part_share", &CutResult::part_share), field("tree", &CutResult::tree),
+            field("part_counts", &CutResult::part_counts),
+            field("meshes_with_part", &CutResult::meshes_with_part), field("starts", &CutResult::starts),
+            field("starts_left_out", &CutResult::starts_left_out),
+            field("eigenvalues", &CutResult::eigenvalues), field("residuals", &CutResult::residuals),
+            field("positions", &CutResult::frame), field("chosen", &CutResult::chosen));
     }
 };
 

@@ -89,7 +89,9 @@ TEST_P(CoSegmentationCut, AllRanksTogetherFindWhatOneFindsAlone) {
     options.starts = {{{2.0, 2.0}, 2 * parts}, {{0.0, 1.0}, 3 * parts}};
     options.starts.push_back(single_start(parts, 5.0)[0]);
     options.choice.links = 0.0;  // which nobody holds together
+    options.screening = {.meshes = 3, .graphs = 2};
     const CutResult dealt = cut(comm, toy, options);
+    EXPECT_EQ(dealt.starts_left_out, 1);
     options.one_rank_entries = 0;
     CutResult together = cut(comm, toy, options);
     const Comm self(MPI_COMM_SELF);
@@ -100,6 +102,30 @@ TEST_P(CoSegmentationCut, AllRanksTogetherFindWhatOneFindsAlone) {
         EXPECT_NEAR(together.eigenvalues[k], dealt.eigenvalues[k], 1e-12) << k;
     together.eigenvalues = dealt.eigenvalues;
     expect_same_result(together, dealt);
+}
+
+TEST_P(CoSegmentationCut, FinishesOnlyTheStartsThatDoWellOnASampleOfTheMeshes) {
+    const Comm comm(MPI_COMM_WORLD);
+    const Comm self(MPI_COMM_SELF);
+    const int parts = GetParam();
+    const ToyCollection toy = toy_collection(comm, 8, parts, 6, 77);
+    CutOptions options = pooled(parts);
+    const std::size_t all = options.starts.size();
+    options.screening = {.meshes = 5, .graphs = 2};
+    const CutResult none_left_out = cut(comm, toy, options);
+    EXPECT_EQ(none_left_out.starts.size(), all) << "8 meshes are less than twice the sample";
+    EXPECT_EQ(none_left_out.starts_left_out, 0);
+    options.screening.meshes = 4;
+    const CutResult screened = cut(comm, toy, options);
+    EXPECT_TRUE(same_partition(screened.part_of_patch, toy.truth));
+    ASSERT_EQ(screened.starts.size(), all / 3) << "2 of 6 graphs";
+    EXPECT_EQ(screened.starts_left_out, static_cast<int>(all - all / 3));
+    std::size_t k = 0;
+    for (const CutStart& start : options.starts) {
+        if (k < screened.starts.size() && start == screened.starts[k].start) ++k;
+    }
+    EXPECT_EQ(k, screened.starts.size()) << "in the order in which they were asked for";
+    expect_same_result(screened, cut(self, toy_collection(self, 8, parts, 6, 77), options));
 }
 
 TEST_P(CoSegmentationCut, TakesAnotherStartWhereAdjacencyCutsShapesApart) {

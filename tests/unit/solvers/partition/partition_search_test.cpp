@@ -161,6 +161,28 @@ TEST(PartitionSearch, ClustersOfTrueSegmentsAreMergedIntoThem) {
     EXPECT_NE(part_of[1], part_of[2]);
 }
 
+TEST(PartitionSearch, APartOfASingleMeshIsGivenUpForOneThatAllMeshesHave) {
+    RandomCollection c(1);
+    // Runs of four patches as above. One patch of one mesh is like nothing else, the second run differs from
+    // the third by little.
+    std::vector<int> clusters;
+    for (int i = 0; i < RandomCollection::patches; ++i) {
+        const int run = i % 12 / 4;
+        clusters.push_back(i == 30 ? 3 : run);
+        for (Eigen::Index r = 0; r < 3; ++r) {
+            const float of_run = r == 0 && run == 0 ? 1.0F : (r == 1 && run == 1 ? 0.05F : 0.0F);
+            c.descriptors[0].histograms(r, i) = i == 30 && r == 2 ? 9.0F : of_run;
+        }
+    }
+    const ClusterSums sums = cluster_sums(partition_objective(c.evidence(), c.weights), clusters, 4);
+    EXPECT_GT(value_of(sums, {0, 1, 1, 2}, 3), value_of(sums, {0, 1, 2, 2}, 3) + 1.0)
+        << "by its value alone the single patch would be a part";
+    for (const std::vector<int>& part_of : merge_clusters(sums, 3)) {
+        EXPECT_EQ(*std::max_element(part_of.begin(), part_of.end()), 2);
+        EXPECT_GT(std::count(part_of.begin(), part_of.end(), part_of[3]), 1) << "it is no part of its own";
+    }
+}
+
 TEST(PartitionSearch, AsManyClustersAsPartsStayAsTheyAre) {
     const RandomCollection c(2);
     const ClusterSums sums =
