@@ -99,26 +99,30 @@ std::vector<Partial> next_step(const std::vector<Partial>& partials, int beam) {
 /// Worth more than everything else that speaks for a partition.
 constexpr double cost_of_degenerate_part = 1e4;
 
-/// The value of a part, less a cost where it is hardly one (is_degenerate_part).
-double value_in_result(const ClusterSums& clusters, std::span<const int> members) {
+bool is_degenerate_union(const ClusterSums& clusters, std::span<const int> members) {
     Eigen::VectorXd share = Eigen::VectorXd::Zero(clusters.share.cols());
     for (const int c : members) share += clusters.share.row(c).transpose();
     const auto present = static_cast<int>((share.array() > 0.0).count());
-    const double value = value_of_part(clusters, members);
-    return is_degenerate_part(share.mean(), present, static_cast<int>(share.size()))
-               ? value - cost_of_degenerate_part
-               : value;
+    return is_degenerate_part(share.mean(), present, static_cast<int>(share.size()));
 }
 
-/// Moves whole clusters between the parts of a finished result.
+/// Moves whole clusters between the parts of a finished result: first by the values of the parts alone, and
+/// then, where a part is hardly one, with a cost for such parts.
 class ClusterMoves {
   public:
     ClusterMoves(const ClusterSums& clusters, std::vector<int> part, int parts)
         : clusters_(clusters), part_(std::move(part)), parts_(parts), alone_(part_.size()) {
-        for (int c = 0; c < clusters_.count(); ++c) alone_[at(c)] = value_in_result(clusters_, std::array{c});
+        run();
+        if (!any_degenerate()) return;
+        cost_of_degenerate_ = cost_of_degenerate_part;
+        run();
     }
 
+    [[nodiscard]] const std::vector<int>& parts() const noexcept { return part_; }
+
+  private:
     void run() {
+        for (int c = 0; c < clusters_.count(); ++c) alone_[at(c)] = value(std::array{c});
         for (int round = 0; round < most_rounds; ++round) {
             look();
             Move best = best_single();
@@ -128,9 +132,6 @@ class ClusterMoves {
             apply(best);
         }
     }
-    [[nodiscard]] const std::vector<int>& parts() const noexcept { return part_; }
-
-  private:
     /// Every move gains, so that it ends by itself; this is to be sure of it whatever rounding does.
     static constexpr int most_rounds = 100;
     static constexpr double least_gain = 1e-9;
@@ -142,6 +143,19 @@ class ClusterMoves {
         int other = -1;
     };
 
+    [[nodiscard]] double value(std::span<const int> members) const {
+        const double value = value_of_part(clusters_, members);
+        if (cost_of_degenerate_ == 0.0 || !is_degenerate_union(clusters_, members)) return value;
+        return value - cost_of_degenerate_;
+    }
+
+    [[nodiscard]] bool any_degenerate() const {
+        for (int p = 0; p < parts_; ++p) {
+            if (is_degenerate_union(clusters_, members(p))) return true;
+        }
+        return false;
+    }
+
     [[nodiscard]] std::vector<int> members(int part, int without = -1, int with = -1) const {
         std::vector<int> result;
         for (int c = 0; c < clusters_.count(); ++c) {
@@ -152,11 +166,11 @@ class ClusterMoves {
 
     void look() {
         value_.assign(at(parts_), 0.0);
-        for (int p = 0; p < parts_; ++p) value_[at(p)] = value_in_result(clusters_, members(p));
+        for (int p = 0; p < parts_; ++p) value_[at(p)] = value(members(p));
         left_.assign(part_.size(), -std::numeric_limits<double>::infinity());
         for (int c = 0; c < clusters_.count(); ++c) {
             const std::vector<int> rest = members(part_[at(c)], c);
-            if (!rest.empty()) left_[at(c)] = value_in_result(clusters_, rest) - value_[at(part_[at(c)])];
+            if (!rest.empty()) left_[at(c)] = value(rest) - value_[at(part_[at(c)])];
         }
     }
 
@@ -165,8 +179,7 @@ class ClusterMoves {
         for (int c = 0; c < clusters_.count(); ++c) {
             for (int p = 0; p < parts_ && left_[at(c)] > -std::numeric_limits<double>::infinity(); ++p) {
                 if (p == part_[at(c)]) continue;
-                const double gain =
-                    left_[at(c)] + value_in_result(clusters_, members(p, -1, c)) - value_[at(p)];
+                const double gain = left_[at(c)] + value(members(p, -1, c)) - value_[at(p)];
                 if (gain > best.gain) best = {gain, c, p, -1};
             }
         }
@@ -179,7 +192,7 @@ class ClusterMoves {
             for (int q = p + 1; q < parts_; ++q) {
                 std::vector<int> both = members(p);
                 for (const int c : members(q)) both.push_back(c);
-                const double united = value_in_result(clusters_, both) - value_[at(p)] - value_[at(q)];
+                const double united = value(both) - value_[at(p)] - value_[at(q)];
                 for (int c = 0; c < clusters_.count(); ++c) {
                     if (part_[at(c)] == p || part_[at(c)] == q) continue;
                     const double gain = united + left_[at(c)] + alone_[at(c)];
@@ -202,6 +215,7 @@ class ClusterMoves {
     const ClusterSums& clusters_;
     std::vector<int> part_;
     int parts_;
+    double cost_of_degenerate_ = 0.0;
     std::vector<double> alone_;  ///< value of each cluster as a part
     std::vector<double> value_;  ///< of each part
     std::vector<double>
@@ -223,9 +237,7 @@ std::vector<std::vector<int>> merge_clusters(const ClusterSums& clusters, int pa
     while (partials.front().sums.count() > parts) partials = next_step(partials, beam);
     std::vector<std::vector<int>> results;
     for (Partial& partial : partials) {
-        ClusterMoves moves(clusters, std::move(partial.group), parts);
-        moves.run();
-        results.push_back(moves.parts());
+        results.push_back(ClusterMoves(clusters, std::move(partial.group), parts).parts());
     }
     return results;
 }

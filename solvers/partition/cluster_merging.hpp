@@ -10,9 +10,9 @@ namespace coseg {
 /// Several results, each with the part of each cluster, 0 .. parts-1, such that the sum of the parts' values
 /// is large. Pairs are united one after the other, with the best `merging_beam` partial results kept at each
 /// step. Each result then takes the best of two kinds of moves as long as one gains: a cluster goes to
-/// another part; or two parts become one, and one cluster leaves its part to be a new one. A part that is
-/// hardly one (is_degenerate_part) counts there as worse than any other. There are fewer parts where there are
-/// fewer clusters. Serial; a function of the sums alone.
+/// another part; or two parts become one, and one cluster leaves its part to be a new one. Where a part is
+/// then hardly one (is_degenerate_part), moves go on with such parts counted as worse than any other. There
+/// are fewer parts where there are fewer clusters. Serial; a function of the sums alone.
 ///
 /// Deviates: the paper's code cuts into K parts at once. Source: none; the objective is in
 /// partition_objective.hpp.

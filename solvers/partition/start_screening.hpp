@@ -16,8 +16,8 @@ struct StartScreening {
 
 /// The starts of `whole` that are worth the work. Of a large collection these are the starts of the few
 /// graphs whose best partitions of a sample of the meshes have the highest scores, in the order of
-/// whole.starts; otherwise all. A hash of the meshes' numbers decides which are in the sample. The same on all
-/// ranks. Collective. Throws AgreedError(not_converged).
+/// whole.starts; otherwise all. A hash of the meshes' numbers decides which are in the sample. The same on
+/// all ranks. Collective. Throws AgreedError(not_converged).
 ///
 /// Deviates: the paper's code has one start. Source: none.
 std::vector<CutStart> promising_starts(const Comm& comm, const ClusteringTask& whole,
