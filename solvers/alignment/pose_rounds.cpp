@@ -20,7 +20,12 @@ constexpr int hashed_starts = 24;
 constexpr int tried_turns = 40;  ///< beside those by right angles
 constexpr double as_good = 0.9;
 constexpr double outlier_gain = 2.0;
-constexpr double enough_of_median = 0.5;
+constexpr double certain_of_median = 0.8;
+constexpr double enough_of_links = 1.0 / 3.0;
+constexpr double enough_gain = 0.05;  ///< of the likelihood of places, like the next one
+constexpr double nearly_as_likely = 0.02;
+constexpr std::size_t least_certain_partners = 3;
+constexpr int place_starts = 120;
 constexpr int pairs_of_a_shape = 4;
 constexpr double most_scale = 2.0;
 
@@ -91,12 +96,12 @@ LinkedPoints mirrored(LinkedPoints points) {
 
 }  // namespace
 
-double enough_agreement(const std::vector<ShapePose>& poses) {
+double median_agreement(const std::vector<ShapePose>& poses) {
     std::vector<double> agreements;
     for (const ShapePose& pose : poses) agreements.push_back(pose.agreement);
     const auto middle = agreements.begin() + std::ssize(agreements) / 2;
     std::nth_element(agreements.begin(), middle, agreements.end());
-    return enough_of_median * *middle;
+    return *middle;
 }
 
 PoseRounds::PoseRounds(const Comm& comm, const AlignmentInput& input, const LinksOfMeshes& links)
@@ -247,7 +252,7 @@ ShapePose PoseRounds::turned_outlier(int mesh, const LinkedPoints& points, doubl
 }
 
 void PoseRounds::turn_outliers() {
-    const double enough = enough_agreement(poses_);
+    const double enough = enough_of_median * median_agreement(poses_);
     round([&](int mesh, const std::vector<PatchLink>& links) {
         return links.empty() ? poses_[at(mesh)] : turned_outlier(mesh, points_of(links), enough);
     });
@@ -266,6 +271,56 @@ void PoseRounds::reflect(double better) {
         pose.agreement = other.agreement;
         pose.reflected = true;
         return pose;
+    });
+}
+
+void PoseRounds::append_places(int mesh, const Eigen::Matrix3d& rotation, WeighedPlaces& places) const {
+    const auto [first, last] = std::equal_range(input_.mesh_of.begin(), input_.mesh_of.end(), mesh);
+    const auto begin = first - input_.mesh_of.begin();
+    const auto count = last - first;
+    const Eigen::Index before = places.weight.size();
+    places.positions.conservativeResize(3, before + count);
+    places.weight.conservativeResize(before + count);
+    places.positions.rightCols(count) = rotation * input_.positions.middleCols(begin, count);
+    places.weight.tail(count) = Eigen::Map<const Eigen::VectorXd>(input_.patch_area.data() + begin, count);
+}
+
+ShapePose PoseRounds::turned_by_places(int mesh, const std::map<int, std::vector<PatchLink>>& certain) const {
+    ShapePose pose = poses_[at(mesh)];
+    const Eigen::Matrix3d sign = (pose.reflected ? -1.0 : 1.0) * Eigen::Matrix3d::Identity();
+    WeighedPlaces own;
+    WeighedPlaces others;
+    std::vector<PatchLink> links;
+    append_places(mesh, sign, own);
+    for (const auto& [other, list] : certain) {
+        append_places(other, poses_[at(other)].rotation, others);
+        links.insert(links.end(), list.begin(), list.end());
+    }
+    scale_to_one(own.weight);
+    scale_to_one(others.weight);
+    const std::uint64_t seed = hash_words({input_.seed, input_.mesh_keys[at(mesh)]});
+    const double now = fitted_places(own, others, {sign * pose.rotation}).front().likelihood;
+    const LinkedPoints points = points_of(links);
+    double best = enough_of_links * agreement(points, pose.rotation);
+    const std::vector<FittedPlaces> found = fitted_places(own, others, hashed_rotations(place_starts, seed));
+    for (const FittedPlaces& one : found) {
+        if (one.likelihood < std::max(now + enough_gain, found.front().likelihood - nearly_as_likely)) break;
+        const double agrees = agreement(points, sign * one.rotation);
+        if (agrees < best) continue;
+        best = agrees;
+        pose.rotation = sign * one.rotation;
+    }
+    return pose;
+}
+
+void PoseRounds::turn_doubtful() {
+    const double enough = certain_of_median * median_agreement(poses_);
+    round([&](int mesh, const std::vector<PatchLink>& links) {
+        const ShapePose& pose = poses_[at(mesh)];
+        if (pose.agreement >= enough || links.empty()) return pose;
+        std::map<int, std::vector<PatchLink>> certain = by_partner(links);
+        std::erase_if(certain, [&](const auto& one) { return poses_[at(one.first)].agreement < enough; });
+        return certain.size() < least_certain_partners ? pose : turned_by_places(mesh, certain);
     });
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solvers/alignment/mesh_links_exchange.hpp"
+#include "solvers/alignment/place_fit.hpp"
 #include "solvers/alignment/rotation_fit.hpp"
 #include "solvers/alignment/shape_alignment.hpp"
 #include "src/parallel/comm.hpp"
@@ -15,9 +16,10 @@
 
 namespace coseg {
 
-/// Below it the links of a shape say nothing of how it stands: half of the median agreement, of two in the
-/// middle the larger. At least one pose.
-double enough_agreement(const std::vector<ShapePose>& poses);
+/// The median of the agreements, of two in the middle the larger. At least one pose.
+double median_agreement(const std::vector<ShapePose>& poses);
+/// Below this share of the median agreement the links of a shape say nothing of how it stands.
+inline constexpr double enough_of_median = 0.5;
 
 /// From where else than its own pose a shape is fitted.
 enum class FitStarts {
@@ -49,6 +51,12 @@ class PoseRounds {
     void turn_outliers();
     /// Reflects a shape where its agreement then is `better` times what it was.
     void reflect(double better);
+    /// Turns doubtful shapes to where their patches lie like those of shapes that are not (place_fit.hpp). A
+    /// shape is doubtful where its links agree less than .8 times as well as those of the median shape. It
+    /// stays where it is linked with less than three that are not, where its links to these would agree less
+    /// than a third as well as now, and where the mean logarithm of the density grows by less than .05. Of
+    /// turns that are nearly as likely (to .02) it takes the one with which these links agree most.
+    void turn_doubtful();
     /// Half a step towards the scale and the translation that suit the others best. The geometric mean of the
     /// scales is 1, and the mean of the translations 0.
     void fit_scale_and_translation();
@@ -67,6 +75,11 @@ class PoseRounds {
     [[nodiscard]] bool is_in_turn(int mesh) const;
     /// The pose of a shape for turn_outliers; `enough`: the least agreement of a turn that is taken.
     [[nodiscard]] ShapePose turned_outlier(int mesh, const LinkedPoints& points, double enough) const;
+    /// The pose of a doubtful shape for turn_doubtful; `certain`: its links to shapes that are not.
+    [[nodiscard]] ShapePose turned_by_places(int mesh,
+                                             const std::map<int, std::vector<PatchLink>>& certain) const;
+    /// Adds the patches of a shape, turned as it is, to `places`; the weights are the areas.
+    void append_places(int mesh, const Eigen::Matrix3d& rotation, WeighedPlaces& places) const;
     [[nodiscard]] ShapePose moved(int mesh, const std::vector<PatchLink>& links) const;
 
     const Comm& comm_;

@@ -22,6 +22,7 @@ namespace {
 constexpr double enough_standing = 0.5;  ///< share of the shapes
 constexpr double clearly_better = 7.0 / 6.0;
 constexpr int turning_rounds = 4;
+constexpr int freed_rounds = 2;  ///< for shapes that followed a doubtful one
 constexpr int settling_rounds = 2;
 constexpr int outlier_rounds = 3;
 constexpr int similarity_rounds = 8;
@@ -96,7 +97,7 @@ ShapeAlignment outliers_turned(PoseRounds& rounds, ShapeAlignment alignment) {
 /// Whose links agree much less than those of others stands by chance: a chair without a back is put on its
 /// head if its one foot is linked with backs.
 void doubt_where_links_agree_little(std::vector<ShapePose>& poses) {
-    const double enough = enough_agreement(poses);
+    const double enough = enough_of_median * median_agreement(poses);
     for (ShapePose& pose : poses) pose.found = pose.found && pose.agreement >= enough;
 }
 
@@ -118,6 +119,8 @@ ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input) {
     rounds.set(best_beginning(rounds));
     for (int round = 0; round < turning_rounds; ++round) rounds.fit(FitStarts::hashed);
     for (int round = 0; round < 2; ++round) rounds.reflect(clearly_better);
+    rounds.turn_doubtful();
+    for (int round = 0; round < freed_rounds; ++round) rounds.fit(FitStarts::hashed);
     for (int round = 0; round < settling_rounds; ++round) rounds.fit(FitStarts::none);
     alignment.agreement_after = mean_agreement(rounds.poses());
     if (alignment.agreement_after < clearly_better * alignment.agreement_before)

@@ -33,7 +33,9 @@ struct AlignmentInput {
 /// and twice pairs of shapes that are fitted from 24 hashed starts (rotation_fit.hpp) and chained along a
 /// spanning tree (rotation_chain.hpp). The one that leads farthest in two rounds goes on: each shape is
 /// fitted again, several times and from other starts too, against all that it has links to. A shape is
-/// reflected if its links then agree better by a sixth. Scale and translation are found last.
+/// reflected if its links then agree better by a sixth. A shape of which the links agree little is turned to
+/// where its patches lie like those of the others, if they do not yet (place_fit.hpp). Scale and translation
+/// are found last.
 /// common_frame.hpp chooses the axes. A shape of which the links agree less than half as well as those of the
 /// median shape is not found: its pose is a guess.
 ///
