@@ -25,6 +25,8 @@ constexpr double enough_of_links = 1.0 / 3.0;
 constexpr double enough_gain = 0.05;  ///< of the likelihood of places, like the next one
 constexpr double nearly_as_likely = 0.02;
 constexpr std::size_t least_certain_partners = 3;
+constexpr std::size_t most_certain_partners =
+    20;  ///< each costs as much as the first and says less that is new
 constexpr int place_starts = 120;
 constexpr int pairs_of_a_shape = 4;
 constexpr double most_scale = 2.0;
@@ -313,13 +315,24 @@ ShapePose PoseRounds::turned_by_places(int mesh, const std::map<int, std::vector
     return pose;
 }
 
+std::map<int, std::vector<PatchLink>> PoseRounds::certain_partners(const std::vector<PatchLink>& links,
+                                                                   double enough) const {
+    std::map<int, std::vector<PatchLink>> partners = by_partner(links);
+    std::erase_if(partners, [&](const auto& one) { return poses_[at(one.first)].agreement < enough; });
+    while (partners.size() > most_certain_partners) {
+        partners.erase(std::min_element(partners.begin(), partners.end(), [&](const auto& a, const auto& b) {
+            return poses_[at(a.first)].agreement < poses_[at(b.first)].agreement;
+        }));
+    }
+    return partners;
+}
+
 void PoseRounds::turn_doubtful() {
     const double enough = certain_of_median * median_agreement(poses_);
     round([&](int mesh, const std::vector<PatchLink>& links) {
         const ShapePose& pose = poses_[at(mesh)];
         if (pose.agreement >= enough || links.empty()) return pose;
-        std::map<int, std::vector<PatchLink>> certain = by_partner(links);
-        std::erase_if(certain, [&](const auto& one) { return poses_[at(one.first)].agreement < enough; });
+        const std::map<int, std::vector<PatchLink>> certain = certain_partners(links, enough);
         return certain.size() < least_certain_partners ? pose : turned_by_places(mesh, certain);
     });
 }

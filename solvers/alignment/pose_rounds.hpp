@@ -75,6 +75,9 @@ class PoseRounds {
     [[nodiscard]] bool is_in_turn(int mesh) const;
     /// The pose of a shape for turn_outliers; `enough`: the least agreement of a turn that is taken.
     [[nodiscard]] ShapePose turned_outlier(int mesh, const LinkedPoints& points, double enough) const;
+    /// The links to shapes whose links agree to `enough`: to those that agree best, if there are many.
+    [[nodiscard]] std::map<int, std::vector<PatchLink>> certain_partners(const std::vector<PatchLink>& links,
+                                                                         double enough) const;
     /// The pose of a doubtful shape for turn_doubtful; `certain`: its links to shapes that are not.
     [[nodiscard]] ShapePose turned_by_places(int mesh,
                                              const std::map<int, std::vector<PatchLink>>& certain) const;
