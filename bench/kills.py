@@ -40,7 +40,7 @@ KINDS = {
 WAYS = ("KILL rank", "KILL all", "TERM", "USR1", "TERM rank")
 END_SECONDS = 30
 LIMIT_SECONDS = 300
-OF_THE_RUN = ("options", "ranks", "seconds", "peak_memory_max_mib", "peak_memory_sum_mib", "stages", "state")
+OF_THE_RUN = ("text_xxh3", "options", "ranks", "seconds", "peak_memory_max_mib", "peak_memory_sum_mib", "stages", "state")
 OF_A_MESH = ("rank", "seconds", "reused")
 
 

@@ -342,6 +342,8 @@ PYBIND11_MODULE(_core, module) {
     module.def("mesh_files", [](const std::vector<std::string>& arguments) {
         return texts_of(coseg::mesh_files(arguments));
     });
+    module.def("changed_files",
+               [](const std::string& folder) { return texts_of(coseg::changed_files(folder)); });
     module.def("load_mesh", [](const std::string& path) { return tuple_of(coseg::load_mesh(path)); });
     module.def("generate", &generate);
     module.def("load_model", &load_model);

@@ -244,6 +244,13 @@ COSEG_VISIBLE std::vector<ShapeDescription> describe(std::span<const Shape> shap
                                                      const std::vector<Option>& options = {},
                                                      const Call& call = {});
 
+// ---- Finished runs ----
+
+/// The files of a finished run, report.json and label files, that are not as the run wrote them: damaged, or
+/// edited, which is the user's right. A sentence each. Not collective. Failure: 3 where report.json cannot be
+/// used.
+COSEG_VISIBLE std::vector<std::string> changed_files(const std::string& folder);
+
 // ---- Scores ----
 
 /// Shares in [0, 1].

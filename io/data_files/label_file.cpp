@@ -12,7 +12,10 @@
 namespace coseg {
 
 std::vector<int> read_labels(const std::string& path, int expected_count) {
-    const std::string bytes = read_file(path);
+    return parse_labels(read_file(path), path, expected_count);
+}
+
+std::vector<int> parse_labels(std::string_view bytes, const std::string& path, int expected_count) {
     TextCursor cursor(bytes, path, 0);
     std::vector<int> labels;
     while (cursor.next_line()) {

@@ -2,6 +2,7 @@
 // Label files NAME.seg: one integer per input face, one a line, in the order of the mesh file's faces.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace coseg {
@@ -10,6 +11,10 @@ namespace coseg {
 /// line if a line is not one integer. If expected_count >= 0 and the file has another number of labels, the
 /// error names path, last line and both counts.
 std::vector<int> read_labels(const std::string& path, int expected_count = -1);
+
+/// The labels that stand in the bytes of a label file; `path` is only for the errors, which are those of
+/// read_labels().
+std::vector<int> parse_labels(std::string_view bytes, const std::string& path, int expected_count = -1);
 
 /// The text of a label file.
 std::string label_text(const std::vector<int>& labels);

@@ -23,6 +23,8 @@ struct FinishedRun {
     std::vector<std::pair<std::string, std::string>> options;
     std::string state;  ///< the folder of its state, "" for none
     std::string folder;
+    /// Whether report.json has another checksum than the run gave it: it is damaged or edited.
+    bool is_report_changed = false;
     int parts = 0;
     std::uint64_t seed = 1;
     std::string weld = "auto";
@@ -33,8 +35,16 @@ struct FinishedRun {
     std::vector<FinishedShape> shapes;
 };
 
-/// Reads DIR/report.json. Throws Error(input) if the folder holds no report, or one that coseg has not
-/// written.
+/// Reads DIR/report.json. Throws Error(input) if the folder holds no report, one that coseg has not written,
+/// or one in which a number is impossible.
 FinishedRun read_finished_run(const std::string& folder);
+
+/// What to say of a file of a run that has another checksum than the run gave it.
+std::string changed_file_sentence(const std::string& path);
+
+/// The files of the run that have another checksum than the run gave them: report.json and label files.
+/// Label files that are not there do not count. Throws Error(input) as read_finished_run() does, and for a
+/// file that cannot be read.
+std::vector<std::string> files_changed_since(const std::string& folder);
 
 }  // namespace coseg

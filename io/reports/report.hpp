@@ -169,8 +169,8 @@ struct Report {
 /// Names and what belongs to them, as texts.
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// The text of report.json. options: every option as resolved; those that are numbers or truth values are
-/// written so.
+/// The text of report.json, with its checksum (io/files/text_checksum.hpp). options: every option as
+/// resolved; those that are numbers or truth values are written so.
 std::string report_text(const NamedTexts& versions, const NamedTexts& options, const Report& report);
 
 }  // namespace coseg

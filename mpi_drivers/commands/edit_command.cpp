@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "mpi_drivers/co_segmentation.hpp"
 #include "mpi_drivers/editing/correction_stage.hpp"
 #include "mpi_drivers/editing/edit_desk.hpp"
+#include "mpi_drivers/finished_runs/finished_shapes.hpp"
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/named_options.hpp"
@@ -40,6 +42,13 @@ bool is_corrected(const FinishedRun& run) {
                        [](const auto& option) { return option.first == base_parts_key; });
 }
 
+int number_of_parts(const std::string& text) {
+    int parts = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parts);
+    if (error == std::errc() && end == text.data() + text.size() && parts >= 1 && parts <= 1000) return parts;
+    throw Error(ExitCode::input, "report.json: '" + text + "' is no number of parts; run coseg run again");
+}
+
 /// As the run was made, before corrections, with nothing written.
 RunOptions options_of(const FinishedRun& run, const EditOptions& given) {
     const std::vector<std::string> names = named_option_names();
@@ -54,7 +63,7 @@ RunOptions options_of(const FinishedRun& run, const EditOptions& given) {
             options.emplace_back(key, value);
     }
     RunOptions result = options_by_name(options);
-    result.partition.parts = std::stoi(base_parts.empty() ? parts : base_parts);
+    result.partition.parts = number_of_parts(base_parts.empty() ? parts : base_parts);
     result.process.state = given.state.empty() ? run.state : given.state;
     result.process.quiet = given.quiet;
     result.output.keep_model = false;
@@ -154,12 +163,11 @@ void serve(const Comm& comm, EditSession& session, const BasePartition& run, con
 
 void edit(const Invocation& invocation, const EditOptions& options) {
     const Comm& comm = invocation.world;
-    FinishedRun finished;
+    const FinishedRun finished = read_run(comm, options.run);
     RunOptions run_options;
     std::vector<MeshEntry> entries;
     std::unique_ptr<StateLock> lock;
     agree(comm, [&] {
-        finished = read_finished_run(options.run);
         run_options = options_of(finished, options);
         if (comm.is_root()) entries = entries_of(finished, options.meshes);
         if (comm.is_root()) lock = session_lock(options.run);

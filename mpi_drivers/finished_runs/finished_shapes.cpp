@@ -57,7 +57,8 @@ std::map<std::string, Eigen::Matrix3d> rotations_of(const FinishedRun& run) {
 /// Reads labels of 0 .. count - 1, and notes the file if it has another checksum than the run's.
 std::vector<int> read_checked(LabelledMesh& shape, const std::string& path, const std::string& checksum,
                               int count) {
-    std::vector<int> labels = read_labels(path, shape.mesh.face_count());
+    const std::string bytes = read_file(path);
+    std::vector<int> labels = parse_labels(bytes, path, shape.mesh.face_count());
     const auto wrong =
         std::find_if(labels.begin(), labels.end(), [&](int label) { return label < 0 || label >= count; });
     if (wrong != labels.end())
@@ -65,8 +66,7 @@ std::vector<int> read_checked(LabelledMesh& shape, const std::string& path, cons
                     path + ": face " + std::to_string(wrong - labels.begin()) + " has " +
                         std::to_string(*wrong) +
                         ", which the run did not have; correct the file, or run coseg run again");
-    if (!checksum.empty() && hash_bytes(read_file(path)).hex() != checksum)
-        shape.changed_files.push_back(path);
+    if (!checksum.empty() && hash_bytes(bytes).hex() != checksum) shape.changed_files.push_back(path);
     return labels;
 }
 
@@ -103,8 +103,7 @@ void warn_of_changed_files(const Comm& comm, const std::vector<LabelledMesh>& sh
     if (all.empty() || !comm.is_root()) return;
     const auto first = std::min_element(
         all.begin(), all.end(), [](const ChangedFile& a, const ChangedFile& b) { return a.path < b.path; });
-    std::fprintf(stderr, "coseg: warning: %s: is not as the run wrote it, but damaged or edited%s\n",
-                 first->path.c_str(),
+    std::fprintf(stderr, "coseg: warning: %s%s\n", changed_file_sentence(first->path).c_str(),
                  all.size() > 1 ? (", like " + std::to_string(all.size() - 1) + " more").c_str() : "");
 }
 
@@ -135,6 +134,8 @@ void add_agreement(ExactSum& gains, const LabelledMesh& shape, int labels) {
 FinishedRun read_run(const Comm& comm, const std::string& folder) {
     FinishedRun run;
     agree(comm, [&] { run = read_finished_run(folder); });
+    if (run.is_report_changed && comm.is_root())
+        std::fprintf(stderr, "coseg: warning: %s\n", changed_file_sentence(folder + "/report.json").c_str());
     return run;
 }
 

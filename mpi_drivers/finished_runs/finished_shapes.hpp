@@ -34,7 +34,8 @@ struct FinishedInput {
     std::string truth;  ///< the folder of NAME.seg; empty if there is none
 };
 
-/// The run's report on every rank. Collective; throws AgreedError(input).
+/// The run's report on every rank. Prints a warning if it is not as the run wrote it. Collective; throws
+/// AgreedError(input).
 FinishedRun read_run(const Comm& comm, const std::string& folder);
 
 /// This rank's share of the shapes, ascending by number: every shape whose number is the rank modulo the

@@ -4,6 +4,7 @@
 #include <coseg/coseg.hpp>
 #include <utility>
 
+#include "io/folders/finished_run.hpp"
 #include "io/mesh_files/mesh_list.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "mpi_drivers/interface/collection_shapes.hpp"
@@ -126,6 +127,15 @@ std::vector<GeneratedShape> interface_1::generate(const std::string& family, int
         std::vector<GeneratedShape> shapes;
         for (int k = 0; k < count; ++k) shapes.push_back(generated(family, k, count, seed, faces));
         return shapes;
+    });
+}
+
+std::vector<std::string> interface_1::changed_files(const std::string& folder) {
+    return without_call([&] {
+        std::vector<std::string> sentences;
+        for (const std::string& path : files_changed_since(folder))
+            sentences.push_back(changed_file_sentence(path));
+        return sentences;
     });
 }
 

@@ -13,7 +13,7 @@ from . import _core
 from ._alignment import Alignment, alignment_of
 from ._errors import InputError, UsageError, translated
 from ._shapes import (MeshesLike, given_communicator, given_options, given_path, given_shapes,
-                      given_whole_number)
+                      given_whole_number, path_bytes)
 
 #: Called as progress(stage, done, total) whenever a stage begins (0, 0), gets further, and ends (1, 1). It is
 #: called on every rank. What it raises ends the call.
@@ -62,7 +62,7 @@ class Result:
         """The result of a finished run from its folder: what `coseg run --out` or segment(out=...) wrote.
 
         Shapes are in the order of the report, which is that of their names. Raises InputError for a folder
-        that holds no run.
+        that holds no run. `warnings` also names report.json and label files that are not as the run wrote them.
         """
         folder = os.fsdecode(given_path(folder))
         path = os.path.join(folder, "report.json")
@@ -74,6 +74,8 @@ class Result:
         except (OSError, ValueError) as error:
             raise InputError(f"'{folder}' is no run: report.json cannot be read ({error}); name the folder that "
                              "coseg run was given with --out") from None
+        with translated():
+            changed = list(_core.changed_files(path_bytes(folder)))
         meshes = report["meshes"]
         names = [_name_of(mesh) for mesh in meshes]
         solution = report["optimisation"]
@@ -89,7 +91,7 @@ class Result:
                          "reason": solution["reason"], "iterations": solution["iterations"],
                          "nonzero_pairs": solution["nonzero_groups"]},
             report=report,
-            warnings=[warning for mesh in meshes for warning in mesh["warnings"]],
+            warnings=changed + [warning for mesh in meshes for warning in mesh["warnings"]],
             folder=folder,
             alignment=_read_alignment(folder, names))
 

@@ -23,6 +23,11 @@ sed -i '7s/.*/3/' "$work/edited/labels/pliers_0001.seg"
 refuses "a part that the run does not have" 3 "face 6 has 3, which the run did not have" "$COSEG" export "$work/edited" --to borders
 sed -i '7s/.*/-1/' "$work/edited/labels/pliers_0001.seg"
 refuses "a negative part" 3 "face 6 has -1" "$COSEG" render "$work/edited" --what errors --truth "$work/set/truth"
+cp "$work/result/labels/pliers_0001.seg" "$work/result/labels/pliers_0002.seg" "$work/edited/labels/"
+sed -i '0,/"seed": 1/s//"seed": 3/' "$work/edited/report.json"
+ranks 2 "$COSEG" export "$work/edited" --to off >"$work/out" 2>"$work/err" || fail "a report that was edited"
+[[ $(cat "$work/err") == "coseg: warning: $work/edited/report.json: is not as the run wrote it, but damaged or edited" ]] ||
+    fail "no warning of a report that was edited: $(cat "$work/err")"
 rm -r "$work/edited"
 refuses "an unknown format" 2 "dxf" "$COSEG" export "$work/result" --to dxf
 

@@ -91,7 +91,12 @@ def test_files_folders_and_mixtures_have_the_labels_of_the_program(run, tables):
     assert equals_run(result, run) and result.folder == str(WORK / "mixed")
     loaded = coseg.Result.load(WORK / "mixed")
     assert equals_run(loaded, run)
-    assert loaded.certificate == result.certificate and loaded.parts == 2
+    assert loaded.certificate == result.certificate and loaded.parts == 2 and not loaded.warnings
+    report = WORK / "mixed/report.json"
+    report.write_text(report.read_text().replace('"seed": 1,', '"seed": 3,'))
+    labels = WORK / f"mixed/labels/{run[1][2]}.seg"
+    labels.write_text(labels.read_text() + "\n")
+    assert [warning.split(":")[0] for warning in coseg.Result.load(WORK / "mixed").warnings] == [str(report), str(labels)]
     with pytest.raises(coseg.Error, match="not empty") as error:
         coseg.segment(mixed, 2, names=run[1], out=WORK / "mixed", **QUICK)
     assert error.value.code == 4
