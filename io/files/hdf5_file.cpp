@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <numeric>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -298,18 +299,73 @@ void Hdf5Writer::commit() {
     output.commit();
 }
 
+namespace {
+
+/// How many values a dataset may have: a file is believed no further than it is long. Deflated data grow at
+/// most 1032 times; what was never written takes no room at all.
+std::uint64_t most_values(hid_t set, hid_t file) {
+    constexpr std::uint64_t growth = 1032;
+    constexpr std::uint64_t always = 1 << 20;  // bytes
+    hsize_t bytes = 0;
+    H5Fget_filesize(file, &bytes);
+    const std::uint64_t stored = std::min<std::uint64_t>(bytes, H5Dget_storage_size(set));
+    const Handle creation(H5Dget_create_plist(set), H5Pclose);
+    const Handle type(H5Dget_type(set), H5Tclose);
+    const std::uint64_t most = (H5Pget_layout(creation.id()) == H5D_CHUNKED ? growth : 1) * stored;
+    return std::max(most, always) / std::max<std::uint64_t>(1, H5Tget_size(type.id()));
+}
+
+/// The number of values; nothing if there are more than `most`, or more than can be counted.
+std::optional<std::uint64_t> counted_values(const Hdf5Shape& shape, std::uint64_t most) {
+    if (std::ranges::find(shape, std::uint64_t{0}) != shape.end()) return 0;
+    std::uint64_t count = 1;
+    for (const std::uint64_t extent : shape) {
+        if (extent > most / count) return std::nullopt;
+        count *= extent;
+    }
+    return count;
+}
+
+std::string file_name_of(hid_t object) {
+    std::string name(static_cast<std::size_t>(std::max<ssize_t>(H5Fget_name(object, nullptr, 0), 0)), '\0');
+    H5Fget_name(object, name.data(), name.size() + 1);
+    return name;
+}
+
+/// Whether the values of a dataset lie in other files than its own: behind a link, as raw bytes, or as a
+/// view.
+bool is_elsewhere(hid_t set, hid_t file) {
+    const Handle creation(H5Dget_create_plist(set), H5Pclose);
+    return H5Pget_external_count(creation.id()) != 0 || H5Pget_layout(creation.id()) == H5D_VIRTUAL ||
+           file_name_of(set) != file_name_of(file);
+}
+
+}  // namespace
+
 struct Hdf5Reader::Handles {
     Handle file{-1, H5Fclose};
 
     [[nodiscard]] Handle dataset(const std::string& path, const std::string& name) const {
         Handle set(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
         if (!set.ok()) refuse(path, "has no dataset '" + name + "'");
+        if (is_elsewhere(set.id(), file.id()))
+            refuse(path, "the dataset '" + name + "' lies in another file; copy it into this one");
         return set;
+    }
+
+    [[nodiscard]] std::size_t count(const std::string& path, const std::string& name, const Handle& set,
+                                    const Hdf5Shape& shape) const {
+        const std::optional<std::uint64_t> values = counted_values(shape, most_values(set.id(), file.id()));
+        if (!values) refuse(path, "the dataset '" + name + "' promises more values than the file can hold");
+        return *values;
     }
 
     [[nodiscard]] Handle attribute(const std::string& path, const std::string& name) const {
         Handle found(H5Aopen(file.id(), name.c_str(), H5P_DEFAULT), H5Aclose);
         if (!found.ok()) refuse(path, "has no attribute '" + name + "'");
+        const Handle space(H5Aget_space(found.id()), H5Sclose);
+        if (H5Sget_simple_extent_npoints(space.id()) != 1)
+            refuse(path, "the attribute '" + name + "' is not a single value");
         return found;
     }
 };
@@ -376,7 +432,7 @@ std::vector<T> Hdf5Reader::read(const std::string& name) const {
         refuse(path_, "the dataset '" + name + "' does not hold numbers");
     if (std::is_integral_v<T> && kind == H5T_FLOAT)
         refuse(path_, "the dataset '" + name + "' holds floating-point numbers, not integers");
-    std::vector<T> values(product(shape(name)));
+    std::vector<T> values(handles_->count(path_, name, set, shape(name)));
     if (H5Dread(set.id(), kind_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
         refuse(path_, "the dataset '" + name + "' cannot be read");
     return values;
@@ -404,7 +460,7 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
     if (H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) <= 0)
         refuse(path_, "the dataset '" + name + "' does not hold texts");
     const Handle type = text_type();
-    std::vector<char*> pointers(product(shape(name)), nullptr);
+    std::vector<char*> pointers(handles_->count(path_, name, set, shape(name)), nullptr);
     if (!pointers.empty() && H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
                                      static_cast<void*>(pointers.data())) < 0) {
         refuse(path_, "the dataset '" + name + "' cannot be read");

@@ -72,7 +72,9 @@ enum class Hdf5Origin {
     foreign,  ///< any HDF5 file; checked like ours if it has our first line
 };
 
-/// A file to read. Every failure is an Error(input) whose sentence names the file and the dataset.
+/// A file to read. Every failure is an Error(input) whose sentence names the file and the dataset. A dataset
+/// that promises more values than a file of this length can hold is refused, and one that lies in another
+/// file, to which a file of a stranger could lead.
 class Hdf5Reader {
   public:
     /// Opens a file of ours. Throws if it cannot be read, is no HDF5 file, is damaged (length, checksum), or

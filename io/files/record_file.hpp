@@ -172,8 +172,10 @@ std::vector<M> read_matrices(const Hdf5Reader& file, const std::string& name) {
     std::vector<M> matrices(rows.size());
     std::size_t next = 0;
     for (std::size_t k = 0; k < rows.size(); ++k) {
+        const auto left = static_cast<std::int64_t>(entries.size() - next);
+        const bool fits = rows[k] >= 0 && columns[k] >= 0 && (rows[k] == 0 || columns[k] <= left / rows[k]);
+        if (!fits) refuse_lengths(file, name);
         const auto size = static_cast<std::size_t>(rows[k] * columns[k]);
-        if (size > entries.size() - next) refuse_lengths(file, name);
         matrices[k] = Eigen::Map<const M>(entries.data() + next, rows[k], columns[k]);
         next += size;
     }

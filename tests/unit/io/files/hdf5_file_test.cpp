@@ -1,6 +1,7 @@
 #include "io/files/hdf5_file.hpp"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <filesystem>
 
@@ -137,6 +138,64 @@ TEST(Hdf5File, ReadsFilesOfOthersWithoutOurFirstLine) {
     const std::string text = folder.file("text.h5", "no HDF5 at all");
     EXPECT_EQ(error_of([&] { const Hdf5Reader file(text, Hdf5Origin::foreign); }).sentence,
               text + ": is not an HDF5 file");
+}
+
+/// A file of another program with one dataset of doubles, chunked where `chunk` is not 0, and never written.
+std::string foreign_file(const TemporaryFolder& folder, const std::vector<hsize_t>& shape, hsize_t chunk,
+                         const std::string& raw = "") {
+    const std::string path = folder.path("foreign.h5");
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    const std::vector<hsize_t> chunks(shape.size(), chunk);
+    if (chunk > 0) H5Pset_chunk(creation, static_cast<int>(shape.size()), chunks.data());
+    if (!raw.empty()) H5Pset_external(creation, raw.c_str(), 0, 16);
+    const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
+    const hid_t set = H5Dcreate2(file, "a", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    const hid_t values = H5Acreate2(file, "many", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(set, 0);
+    H5Aclose(values);
+    H5Dclose(set);
+    H5Sclose(space);
+    H5Pclose(creation);
+    H5Lcreate_external((path + "2").c_str(), "a", file, "b", H5P_DEFAULT, H5P_DEFAULT);
+    H5Fclose(file);
+    return path;
+}
+
+void expect_refused(const std::string& path, const std::string& name, const std::string& words) {
+    const Hdf5Reader file(path, Hdf5Origin::foreign);
+    const test::Caught caught = error_of([&] { static_cast<void>(file.read<double>(name)); });
+    EXPECT_EQ(caught.code, ExitCode::input);
+    EXPECT_NE(caught.sentence.find(words), std::string::npos) << caught.sentence;
+}
+
+TEST(Hdf5File, BelievesShapesNoFurtherThanTheFileIsLong) {
+    const TemporaryFolder folder;
+    const hsize_t large = hsize_t{1} << 33;
+    // 2^66 values, which as a number of 64 bits are 4.
+    expect_refused(foreign_file(folder, {large, large}, 16), "a", "more values than the file can hold");
+    expect_refused(foreign_file(folder, {1 << 20}, 16), "a", "more values than the file can hold");
+    const Hdf5Reader file(foreign_file(folder, {0, large}, 16), Hdf5Origin::foreign);
+    EXPECT_TRUE(file.read<double>("a").empty());
+}
+
+TEST(Hdf5File, ReadsNoOtherFile) {
+    const TemporaryFolder folder;
+    folder.file("raw", "sixteen bytes, ok");
+    expect_refused(foreign_file(folder, {2}, 0, folder.path("raw")), "a", "lies in another file");
+    const std::string path = foreign_file(folder, {2}, 0);
+    fs::copy(path, path + "2");
+    expect_refused(path, "b", "lies in another file");
+    EXPECT_EQ(Hdf5Reader(path, Hdf5Origin::foreign).read<double>("a"), (std::vector<double>{0, 0}));
+}
+
+TEST(Hdf5File, AnAttributeOfManyValuesIsNoNumber) {
+    const TemporaryFolder folder;
+    const Hdf5Reader file(foreign_file(folder, {1000}, 0), Hdf5Origin::foreign);
+    for (const test::Caught& caught : {error_of([&] { static_cast<void>(file.number("many")); }),
+                                       error_of([&] { static_cast<void>(file.integer("many")); }),
+                                       error_of([&] { static_cast<void>(file.text("many")); })})
+        EXPECT_NE(caught.sentence.find("is not a single value"), std::string::npos) << caught.sentence;
 }
 
 TEST(Hdf5File, SaysThatItCannotBeWritten) {

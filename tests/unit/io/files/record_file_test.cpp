@@ -73,5 +73,20 @@ TEST(RecordFile, ColumnsOfDifferentLengthAreRefused) {
     EXPECT_THROW(read_column<Nested>(Hdf5Reader(name, "coseg test", 1), "rows"), Error);
 }
 
+TEST(RecordFile, MatricesOfImpossibleSizesAreRefused) {
+    const std::int64_t large = std::int64_t{1} << 33;
+    for (const auto& [rows, columns] :
+         std::vector<std::pair<std::int64_t, std::int64_t>>{{-1, -1}, {large, large}, {2, -1}, {2, 2}}) {
+        const TemporaryFolder folder;
+        const std::string name = folder.path() + "/torn.h5";
+        Hdf5Writer writer(name, "coseg test", 1);
+        writer.write("matrices/rows", std::vector<std::int64_t>{rows});
+        writer.write("matrices/columns", std::vector<std::int64_t>{columns});
+        writer.write("matrices/value", std::vector<double>{1.0, 2.0, 3.0});
+        writer.commit();
+        EXPECT_THROW(read_column<Eigen::MatrixXd>(Hdf5Reader(name, "coseg test", 1), "matrices"), Error);
+    }
+}
+
 }  // namespace
 }  // namespace coseg
