@@ -10,14 +10,15 @@
     stopped     one rank is stopped (SIGSTOP) in every stage for --pause seconds and continued; also many times in a row
     memory      a rank, or all of them, may not have more than so much memory (`ulimit -v`), in --steps sizes
     shm         /dev/shm is small, from 0 to 32 MB
+    clock       the clock jumps back by an hour during the run, or the state was written under a clock that was a day ahead
     files       few open files are allowed (`ulimit -n`), or only short files (`ulimit -f`)
 
 A case passes if the run ends with the bytes of a run left alone, or if it says why it cannot in one sentence, with a documented
 code other than 0; within 30 s and four times what the run takes alone; with no process, no partial folder and no damaged
 file of the state left; and if the same command without the fault, on the same state folder, ends with those bytes. Where MPI
 itself cannot begin, words and code are its own. Where a mesh is set aside for lack of memory, as the run says, the labels are
-those of the others. The exit code is 1 if a case fails. `full`, `read-only` and `shm` need the right to mount, and are skipped
-without it.
+those of the others. The exit code is 1 if a case fails. `full`, `read-only` and `shm` need the right to mount, `clock` needs Debian's
+package faketime; they are skipped without it.
 """
 import argparse
 import json
@@ -314,7 +315,46 @@ def small_shared_memory(bench):
         bench.case(f"/dev/shm of {size}B", lambda folder, size=size: act(folder, size))
 
 
-CASES = {"full": full_disk, "read-only": read_only, "stopped": stopped_rank, "memory": little_memory, "shm": small_shared_memory,
+FAKETIME = "/usr/lib/x86_64-linux-gnu/faketime/libfaketime.so.1"
+
+
+def clock_jumps(bench):
+    def under(clock):
+        if not os.path.exists(FAKETIME):
+            raise Skipped("no package faketime")
+        return ["env", f"LD_PRELOAD={FAKETIME}", f"FAKETIME_TIMESTAMP_FILE={clock}", "FAKETIME_NO_CACHE=1", "DONT_FAKE_MONOTONIC=1",
+                "NO_FAKE_STAT=1", bench.coseg]
+
+    def during(folder, share):
+        out, state, clock = folder / "out", folder / "state", folder / "clock"
+        clock.write_text("+0\n")
+        process = bench.start(out, state, program=under(clock))
+        ranks_of(process, bench, 2)
+        time.sleep(share * bench.seconds)
+        clock.write_text("-1h\n")
+        outcome = bench.judge(bench.end(process), out, folder, state)
+        bench.continues(out, state)
+        return outcome
+
+    def between(folder):
+        out, state, clock = folder / "out", folder / "state", folder / "clock"
+        clock.write_text("+1d\n")
+        bench.run(folder / "first", state, program=under(clock))
+        for path in state.rglob("*"):  # times of files are the kernel's, whose clock is right
+            os.utime(path, (time.time() + 86400, time.time() + 86400))
+        outcome = bench.judge(bench.run(out, state), out, folder, state)
+        listed = subprocess.run([bench.coseg, "state", "list", str(state)], capture_output=True, text=True, check=False,
+                                env=dict(bench.environment, COSEG_RANKS="1"))
+        if listed.returncode != 0:
+            raise Failed(f"coseg state list ends with {listed.returncode}: {listed.stderr}")
+        return outcome
+
+    for share in (0.1, 0.3, 0.5, 0.7, 0.9):
+        bench.case(f"the clock jumps back by an hour at {share:.0%} of the run", lambda folder, share=share: during(folder, share))
+    bench.case("a state of tomorrow", between)
+
+
+CASES = {"clock": clock_jumps, "full": full_disk, "read-only": read_only, "stopped": stopped_rank, "memory": little_memory, "shm": small_shared_memory,
          "files": few_files}
 
 
