@@ -101,7 +101,7 @@ def find_sets(data, wanted):
     return {name: sets[name] for name in sets if not wanted or name in wanted}
 
 
-def generated_sets(coseg, shapes, families, folder):
+def generated_sets(coseg, shapes, families, folder, options=()):
     listing = command_output([coseg, "generate", "--list"], 60)
     known = [line.split()[0] for line in listing.splitlines() if line.strip()]
     unknown = sorted(set(families) - set(known))
@@ -110,7 +110,7 @@ def generated_sets(coseg, shapes, families, folder):
     sets = {}
     for family in families or known:
         made = os.path.join(folder, family)
-        command_output([coseg, "generate", family, "--count", str(shapes), "--seed", "1", "--out", made], 3600)
+        command_output([coseg, "generate", family, "--count", str(shapes), "--seed", "1", "--out", made, *options], 3600)
         truth = os.path.join(made, "truth")
         sets[f"generated_{family}"] = {"parts": truth_labels(truth), "meshes": [os.path.join(made, "meshes")], "truth": truth}
     return sets
