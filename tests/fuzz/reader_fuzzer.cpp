@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cinttypes>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -17,13 +18,18 @@
 #include "io/data_files/alignment_file.hpp"
 #include "io/data_files/correction_file.hpp"
 #include "io/data_files/face_feature_file.hpp"
+#include "io/data_files/feature_file.hpp"
 #include "io/data_files/label_file.hpp"
 #include "io/data_files/name_file.hpp"
 #include "io/data_files/problem_file.hpp"
+#include "io/files/content_hash.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/files/record_file.hpp"
 #include "io/folders/finished_run.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
+#include "tests/support/every_kind.hpp"
 
 namespace {
 
@@ -85,6 +91,41 @@ void read_npy(std::string_view bytes) {
     require(features.cols() == faces && features.allFinite(), "features that are not of the faces");
 }
 
+/// The bytes of an HDF5 file with the first line that coseg gives it. Without it nearly every file would be
+/// refused for its checksum.
+std::string with_first_line(std::string_view bytes) {
+    constexpr std::size_t user_block = 512;
+    if (!bytes.starts_with("coseg hdf5 1") || bytes.size() < user_block) return std::string(bytes);
+    const std::string_view content = bytes.substr(user_block);
+    char line[user_block] = {};
+    std::snprintf(line, sizeof line, "coseg hdf5 1 bytes=%" PRIu64 " xxh3=%s\n",
+                  static_cast<std::uint64_t>(content.size()), coseg::hash_bytes(content).hex().c_str());
+    return std::string(line, sizeof line) + std::string(content);
+}
+
+/// Records with fields of every kind, as files of the state folder and models hold them.
+void read_records(const std::string& path) {
+    const coseg::Hdf5Reader file(path, "coseg fuzzed", 1);
+    for (const std::string& name : file.names("/")) require(!name.empty(), "a member without a name");
+    const auto rows = coseg::read_column<coseg::test::EveryKind>(file, "rows");
+    coseg::test::EveryKind record;
+    coseg::read_record(file, "record", record);
+    for (const std::vector<int>& list : record.lists)
+        require(list.size() <= 1U << 24U, "more values than the file can hold");
+    require(rows.size() <= 1U << 24U, "more rows than the file can hold");
+}
+
+void read_features(const std::string& path) {
+    const coseg::FeatureFile file = coseg::read_feature_file(path);
+    require(!file.features.empty() && file.names.size() == file.features.size(), "no features");
+    const auto items = file.features.front().cols();
+    for (const auto* pairs : {&file.neighbors, &file.overlaps}) {
+        for (const int second : pairs->second)
+            require(second > 0 && second < items, "a pair beyond the items");
+    }
+    require(file.mesh_of.empty() || std::ssize(file.mesh_of) == items, "meshes of other items");
+}
+
 /// Readers that open a file themselves, by the suffix of the examples in tests/corpus.
 using FileReader = void (*)(const std::string& path);
 const std::map<std::string, FileReader> file_readers{
@@ -94,7 +135,10 @@ const std::map<std::string, FileReader> file_readers{
     {".corrections", [](const std::string& path) { coseg::read_corrections(path); }},
     {".constraints", [](const std::string& path) { coseg::read_constraints(path); }},
     {".alignment", [](const std::string& path) { coseg::read_alignment(path); }},
-    {".problem", [](const std::string& path) { coseg::read_problem_file(path); }}};
+    {".problem", [](const std::string& path) { coseg::read_problem_file(path); }},
+    {".features", read_features},
+    {".face_features", [](const std::string& path) { coseg::read_face_features(path, 4); }},
+    {".records", read_records}};
 
 /// The suffix of what is fuzzed.
 const std::string& fuzzed_suffix() {
@@ -110,7 +154,7 @@ void read(std::string_view bytes) {
     const std::string& suffix = fuzzed_suffix();
     const auto reader = file_readers.find(suffix);
     if (reader != file_readers.end()) {
-        reader->second(MemoryFile(bytes).path());
+        reader->second(MemoryFile(with_first_line(bytes)).path());
     } else if (suffix == ".npy") {
         read_npy(bytes);
     } else {
