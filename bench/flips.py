@@ -116,12 +116,12 @@ class Bench:
             self.meshes = scratch / "shapes/meshes"
         self.must(*self.run_words(self.run_folder), "--keep-features", "--state", str(self.state))
 
-    def call(self, *words):
-        return subprocess.run([self.coseg, *map(str, words)], env=self.environment, timeout=LIMIT_SECONDS, text=True,
+    def call(self, *words, limit=LIMIT_SECONDS):
+        return subprocess.run([self.coseg, *map(str, words)], env=self.environment, timeout=limit, text=True,
                               errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
 
     def must(self, *words):
-        done = self.call(*words)
+        done = self.call(*words, limit=600)
         if done.returncode != 0:
             sys.exit(f"coseg {' '.join(map(str, words))} ends with {done.returncode}:\n{done.stdout}")
 
