@@ -1,5 +1,7 @@
 #include "mpi_drivers/options/run_option_table.hpp"
 
+#include <cerrno>
+#include <cstdlib>
 #include <sstream>
 #include <type_traits>
 #include <utility>
@@ -37,8 +39,15 @@ std::string printed(const T& value) {
     return text.str();
 }
 
+/// CLI11 takes the nearest number of 64 bits for one beyond them.
 const CLI::Validator unsigned_number(
-    [](std::string& text) { return text.starts_with("-") ? text + " is negative" : std::string(); }, "");
+    [](std::string& text) {
+        if (text.starts_with("-")) return text + " is negative";
+        errno = 0;
+        std::strtoull(text.c_str(), nullptr, 0);
+        return errno == ERANGE ? text + " is more than 18446744073709551615" : std::string();
+    },
+    "");
 
 const CLI::Validator links_text(
     [](std::string& text) {

@@ -7,6 +7,9 @@ from typing import Any, Dict, List, Optional
 
 import numpy as np
 
+from ._errors import InputError, UsageError
+from ._shapes import given_whole_number
+
 
 @dataclasses.dataclass
 class Alignment:
@@ -45,8 +48,17 @@ class Alignment:
         return f"coseg.Alignment({len(self.scales)} shapes, aligned={self.aligned}: {self.reason})"
 
     def apply(self, shape: int, points: Any) -> np.ndarray:
-        """The points (N, 3) of the shape with this index, as they lie in the frame."""
-        turned = np.asarray(points, dtype=np.float64) @ self.rotations[shape].T
+        """The points (N, 3) of the shape with this index, 0 .. S - 1, as they lie in the frame."""
+        shape = given_whole_number("shape", shape)
+        if not 0 <= shape < len(self.scales):
+            raise UsageError(f"shape: {shape} is not in 0 .. {len(self.scales) - 1}")
+        try:
+            given = np.asarray(points, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"the points must be N x 3 numbers ({error})") from None
+        if given.ndim != 2 or given.shape[1] != 3:
+            raise InputError(f"the points must be N x 3 numbers, not an array of the shape {given.shape}")
+        turned = given @ self.rotations[shape].T
         return self.scales[shape] * turned + self.translations[shape]
 
     @property

@@ -85,6 +85,7 @@ refuses "unknown option" 2 "--no-such-option" run 2 --no-such-option 1 "$work/go
 refuses "value out of range" 2 "--alpha" run 2 --alpha -1 "$work/good"
 refuses "value that is not a number" 2 "--gap" run 2 --gap nan "$work/good"
 refuses "negative seed" 2 "--seed" run 2 --seed -1 "$work/good"
+refuses "seed beyond 64 bits" 2 "is more than 18446744073709551615" run 2 --seed 18446744073709551616 "$work/good"
 refuses "no feature" 2 "--feature-weights" run 2 --feature-weights=0,0,0,0,0 "$work/good"
 refuses "no set of words" 2 "--word-sets" run 2 --word-sets 0 "$work/good"
 refuses "balance beyond its range" 2 "--mesh-balance" run 2 --mesh-balance 1.5 "$work/good"

@@ -251,6 +251,15 @@ def test_alignment(run, tables):
     assert np.allclose(placed, tables[0].vertices @ called.matrices[3, :3, :3].T + called.matrices[3, :3, 3])
     assert np.abs(placed.mean(axis=0)).max() < 0.6 and 0.7 < placed.std() < 1.4
     assert coseg.assign(tables[:2], str(run[0])).alignment is None
+    shapes = len(tables)
+    for shape in (shapes, -1, 10 ** 30):
+        with pytest.raises(coseg.UsageError, match=f"shape: {shape} is not in 0 .. {shapes - 1}"):
+            called.apply(shape, tables[0].vertices)
+    with pytest.raises(coseg.UsageError, match="shape: 1.5 is no whole number"):
+        called.apply(1.5, tables[0].vertices)
+    for points in ([1, 2, 3], np.ones((4, 2)), "abc", [[1, 2, 3], [4]]):
+        with pytest.raises(coseg.InputError, match="the points must be N x 3 numbers"):
+            called.apply(0, points)
 
 
 def test_turned_shapes_are_turned_back():
@@ -306,6 +315,7 @@ def test_bad_shapes_can_be_set_aside():
     (dict(progress=5), "progress: 5 is no function"),
     (dict(seed=-1), "seed: -1"),
     (dict(seed=1.5), "seed = 1.5"),
+    (dict(seed=2 ** 64), "seed: 18446744073709551616 is more than"),
     (dict(align="maybe"), "align: maybe"),
 ])
 def test_bad_arguments_are_exceptions(arguments, words):
