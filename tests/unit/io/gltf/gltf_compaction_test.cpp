@@ -76,7 +76,7 @@ class CompactedSkin : public testing::Test {
 
 TEST_F(CompactedSkin, KeepsTheJointsOfTheSkinThatIsDrawn) {
     ASSERT_EQ(json_["nodes"].size(), 3U);
-    EXPECT_EQ(json_["scenes"][0]["nodes"], nlohmann::json({0}));
+    EXPECT_EQ(json_["scenes"][0]["nodes"], nlohmann::json(std::vector<int>{0}));
     EXPECT_EQ(json_["nodes"][0], nlohmann::json({{"name", "drawn"}, {"mesh", 0}, {"skin", 0}}));
     EXPECT_EQ(json_["nodes"][1], nlohmann::json({{"name", "hip"}, {"children", {2}}}));
     EXPECT_EQ(json_["nodes"][2]["name"], "knee");
