@@ -229,7 +229,7 @@ std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const Corre
         comm,
         CutInput{coefficients, neighbors, overlaps, mesh_of, input.patch_area, input.choice,
                  input.known_positions(), nullptr, &features.histograms},
-        cut_options(input.positions, options), base.cut.confidence);
+        cut_options(input, options), base.cut.confidence);
 }
 
 CorrectionState state_after(const Comm& comm, const CorrectionBase& base,

@@ -90,8 +90,10 @@ PartitionInput partition_input(const Collection& collection, PatchFeatures featu
             .examples = examples.empty() ? nullptr : &examples};
 }
 
-CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions& options) {
+CutOptions cut_options(const PartitionInput& input, const PartitionOptions& options) {
     CutOptions cut;
+    // Creases are summed over the over-segmentations; the weight is that of three.
+    cut.choice.crease *= 3.0 / input.collection.numbering.oversegmentations();
     cut.parts = options.parts;
     cut.form = options.affinity;
     cut.drop_below = options.drop_below;
@@ -101,7 +103,7 @@ CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions
     if (options.choose) {
         cut.spectral.tolerance = search_tolerance;
         cut.starts = pooled_starts(options.parts);
-        if (looks_at_positions(positions, options)) append(cut.starts, pooled_starts(options.parts, true));
+        if (looks_at_positions(input.positions, options)) append(cut.starts, pooled_starts(options.parts, true));
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
         const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};
@@ -123,12 +125,12 @@ CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const Pa
         input.coefficients,      neighbors,      overlaps,         mesh_of, input.patch_area, input.choice,
         input.known_positions(), input.examples, &input.histograms};
     if (options.parts != found_parts && !options.levels)
-        return partition_patches(comm, cut, cut_options(input.positions, options));
+        return partition_patches(comm, cut, cut_options(input, options));
     PartitionOptions known = options;
     if (options.parts == found_parts) known.parts = least_part_count;
-    CountedParts counted = count_parts(comm, cut, cut_options(input.positions, known));
+    CountedParts counted = count_parts(comm, cut, cut_options(input, known));
     if (options.parts == found_parts) known.parts = part_number(counted);
-    CutOptions guided = cut_options(input.positions, known);
+    CutOptions guided = cut_options(input, known);
     guided.guides = std::move(counted.partitions);
     CutResult result = partition_patches(comm, cut, guided);
     if (options.parts == found_parts) result.part_counts = std::move(counted.figures);

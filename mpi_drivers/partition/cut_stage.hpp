@@ -40,8 +40,8 @@ PartitionInput partition_input(const Collection& collection, PatchFeatures featu
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                const ExampleLabels& examples = {});
 
-/// What a cut of these patches is made with. positions: as in PartitionInput.
-CutOptions cut_options(const Eigen::Matrix3Xd& positions, const PartitionOptions& options);
+/// What a cut of these patches is made with.
+CutOptions cut_options(const PartitionInput& input, const PartitionOptions& options);
 
 /// Cuts the patches into K parts, or with found_parts into as many as count_parts() puts first. K must not
 /// exceed the number of patches. Collective. Throws AgreedError: not_converged; input where there are too few
