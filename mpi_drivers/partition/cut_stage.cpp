@@ -103,7 +103,8 @@ CutOptions cut_options(const PartitionInput& input, const PartitionOptions& opti
     if (options.choose) {
         cut.spectral.tolerance = search_tolerance;
         cut.starts = pooled_starts(options.parts);
-        if (looks_at_positions(input.positions, options)) append(cut.starts, pooled_starts(options.parts, true));
+        if (looks_at_positions(input.positions, options))
+            append(cut.starts, pooled_starts(options.parts, true));
     } else {
         cut.starts = single_start(options.parts, options.adjacency);
         const GraphWeights weights{options.adjacency, options.adjacency * options.overlap};

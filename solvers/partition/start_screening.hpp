@@ -11,7 +11,7 @@ namespace coseg {
 
 struct StartScreening {
     int meshes = 50;  ///< of the sample; with fewer than twice as many no start is left out
-    int graphs = 4;    ///< whose starts are kept
+    int graphs = 4;   ///< whose starts are kept
 };
 
 /// The starts of `whole` that are worth the work. Of a large collection these are the starts of the few

@@ -53,11 +53,15 @@ assert not report["set_aside"]
 END
 echo "ok: what a run writes"
 
-# More parts than four cups have: the run says how many are worth the name. With two it has nothing to say.
+# More parts than four cups have, cut at once: the run says how many are worth the name. With two it has nothing to say, nor
+# where clusters are merged so that eight are.
 "$COSEG" generate cup --count 4 --seed 3 --faces 2000 --out "$work/cups" >"$work/out"
-for parts in 2 8; do
-    ranks 2 "$COSEG" run --no-html --no-sheet --state "$work/state" --parts $parts --out "$work/cups/$parts" "$work/cups/meshes" >"$work/$parts.log" 2>&1
+for options in "--parts=2" "--parts=8" "--parts=8 --no-choose"; do
+    # shellcheck disable=SC2086  # one or two options
+    ranks 2 "$COSEG" run --no-html --no-sheet --state "$work/state" $options --out "$work/cups/$options" "$work/cups/meshes" \
+        >"$work/$options.log" 2>&1
 done
-grep -q "8 parts are asked for, but only [2-7] are in half of the shapes" "$work/8.log" || fail "no warning: $(cat "$work/8.log")"
-grep -q "are asked for" "$work/2.log" && fail "a warning of parts that are none: $(cat "$work/2.log")"
+log="$work/--parts=8 --no-choose.log"
+grep -q "8 parts are asked for, but only [2-7] are in half of the shapes" "$log" || fail "no warning: $(cat "$log")"
+grep -q "are asked for" "$work/--parts=2.log" "$work/--parts=8.log" && fail "a warning of parts that are none"
 echo "ok: parts that are hardly any"
