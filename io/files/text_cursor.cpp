@@ -7,13 +7,12 @@
 #include <cstdlib>
 #include <limits>
 
+#include "io/files/text_encoding.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
 
 namespace {
-
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// A space, or one of the control characters \t \n \v \f \r, which follow each other in ASCII.
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }

@@ -95,7 +95,6 @@ std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
 }
 
 std::string utf8_text(std::string bytes) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (std::optional<std::string> decoded = utf8_of_utf16(bytes)) return *std::move(decoded);
     if (bytes.starts_with(byte_order_mark)) bytes.erase(0, byte_order_mark.size());
     return bytes;

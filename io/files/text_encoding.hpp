@@ -7,6 +7,9 @@
 
 namespace coseg {
 
+/// The byte order mark, U+FEFF, in UTF-8.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// The same text in UTF-8 if the bytes are text in UTF-16, of either byte order: with a byte order mark, or
 /// without one if every other of the first bytes is zero. Nothing otherwise. Halves of characters that stand
 /// alone become U+FFFD.
