@@ -100,10 +100,9 @@ std::vector<Partial> next_step(const std::vector<Partial>& partials, int beam) {
 constexpr double cost_of_degenerate_part = 1e4;
 
 bool is_degenerate_union(const ClusterSums& clusters, std::span<const int> members) {
-    Eigen::VectorXd share = Eigen::VectorXd::Zero(clusters.share.cols());
-    for (const int c : members) share += clusters.share.row(c).transpose();
-    const auto present = static_cast<int>((share.array() > 0.0).count());
-    return is_degenerate_part(share.mean(), present, static_cast<int>(share.size()));
+    Eigen::RowVectorXd share = Eigen::RowVectorXd::Zero(clusters.share.cols());
+    for (const int c : members) share += clusters.share.row(c);
+    return is_degenerate_part(share);
 }
 
 /// Moves whole clusters between the parts of a finished result: first by the values of the parts alone, and
@@ -114,7 +113,7 @@ class ClusterMoves {
         : clusters_(clusters), part_(std::move(part)), parts_(parts), alone_(part_.size()) {
         run();
         if (!any_degenerate()) return;
-        cost_of_degenerate_ = cost_of_degenerate_part;
+        degenerate_parts_cost_ = true;
         run();
     }
 
@@ -132,6 +131,7 @@ class ClusterMoves {
             apply(best);
         }
     }
+
     /// Every move gains, so that it ends by itself; this is to be sure of it whatever rounding does.
     static constexpr int most_rounds = 100;
     static constexpr double least_gain = 1e-9;
@@ -145,8 +145,8 @@ class ClusterMoves {
 
     [[nodiscard]] double value(std::span<const int> members) const {
         const double value = value_of_part(clusters_, members);
-        if (cost_of_degenerate_ == 0.0 || !is_degenerate_union(clusters_, members)) return value;
-        return value - cost_of_degenerate_;
+        const bool costs = degenerate_parts_cost_ && is_degenerate_union(clusters_, members);
+        return costs ? value - cost_of_degenerate_part : value;
     }
 
     [[nodiscard]] bool any_degenerate() const {
@@ -215,7 +215,7 @@ class ClusterMoves {
     const ClusterSums& clusters_;
     std::vector<int> part_;
     int parts_;
-    double cost_of_degenerate_ = 0.0;
+    bool degenerate_parts_cost_ = false;
     std::vector<double> alone_;  ///< value of each cluster as a part
     std::vector<double> value_;  ///< of each part
     std::vector<double>

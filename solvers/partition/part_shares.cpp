@@ -37,10 +37,14 @@ bool is_degenerate_part(double mean_share, int meshes_with_part, int meshes) {
     return mean_share < 0.005 || 2 * meshes_with_part < meshes;
 }
 
+bool is_degenerate_part(const Eigen::Ref<const Eigen::RowVectorXd, 0, Eigen::InnerStride<>>& share_of_mesh) {
+    const auto with_part = static_cast<int>((share_of_mesh.array() > 0.0).count());
+    return is_degenerate_part(share_of_mesh.mean(), with_part, static_cast<int>(share_of_mesh.size()));
+}
+
 bool is_degenerate(const Eigen::MatrixXd& shares) {
     for (Eigen::Index p = 0; p < shares.rows(); ++p) {
-        const auto with_part = static_cast<int>((shares.row(p).array() > 0.0).count());
-        if (is_degenerate_part(shares.row(p).mean(), with_part, static_cast<int>(shares.cols()))) return true;
+        if (is_degenerate_part(shares.row(p))) return true;
     }
     return false;
 }

@@ -20,6 +20,9 @@ std::vector<double> mean_area_shares(const std::vector<int>& labels, int parts,
 /// meshes, or occurs in less than half of them.
 bool is_degenerate_part(double mean_share, int meshes_with_part, int meshes);
 
+/// The same of its shares of the meshes, as one row of area_shares.
+bool is_degenerate_part(const Eigen::Ref<const Eigen::RowVectorXd, 0, Eigen::InnerStride<>>& share_of_mesh);
+
 /// Whether a part of the partition is. `shares` as area_shares gives them.
 bool is_degenerate(const Eigen::MatrixXd& shares);
 
