@@ -110,7 +110,14 @@ bool is_degenerate_union(const ClusterSums& clusters, std::span<const int> membe
 class ClusterMoves {
   public:
     ClusterMoves(const ClusterSums& clusters, std::vector<int> part, int parts)
-        : clusters_(clusters), part_(std::move(part)), parts_(parts), alone_(part_.size()) {
+        : clusters_(clusters),
+          part_(std::move(part)),
+          parts_(parts),
+          alone_(part_.size()),
+          value_(parts),
+          with_(parts, clusters.count()),
+          united_(parts, parts),
+          left_(clusters.count()) {
         run();
         if (!any_degenerate()) return;
         degenerate_parts_cost_ = true;
@@ -122,13 +129,17 @@ class ClusterMoves {
   private:
     void run() {
         for (int c = 0; c < clusters_.count(); ++c) alone_[at(c)] = value(std::array{c});
+        for (int p = 0; p < parts_; ++p) look_at(p);
         for (int round = 0; round < most_rounds; ++round) {
-            look();
             Move best = best_single();
             const Move exchange = best_exchange();
             if (exchange.gain > best.gain) best = exchange;
             if (best.cluster < 0) return;
+            const int from = part_[at(best.cluster)];
             apply(best);
+            look_at(from);
+            look_at(best.to);
+            if (best.other >= 0) look_at(best.other);
         }
     }
 
@@ -164,22 +175,36 @@ class ClusterMoves {
         return result;
     }
 
-    void look() {
-        value_.assign(at(parts_), 0.0);
-        for (int p = 0; p < parts_; ++p) value_[at(p)] = value(members(p));
-        left_.assign(part_.size(), -std::numeric_limits<double>::infinity());
+    /// Finds all values that depend on the clusters of a part; those of other parts stay as they are.
+    void look_at(int part) {
+        const std::vector<int> all = members(part);
+        value_(part) = value(all);
         for (int c = 0; c < clusters_.count(); ++c) {
-            const std::vector<int> rest = members(part_[at(c)], c);
-            if (!rest.empty()) left_[at(c)] = value(rest) - value_[at(part_[at(c)])];
+            if (part_[at(c)] != part) {
+                with_(part, c) = value(members(part, -1, c));
+                continue;
+            }
+            const std::vector<int> rest = members(part, c);
+            left_(c) = rest.empty() ? -std::numeric_limits<double>::infinity() : value(rest) - value_(part);
         }
+        for (int other = 0; other < parts_; ++other) {
+            if (other != part)
+                united_(std::min(part, other), std::max(part, other)) = value_of_union(part, other);
+        }
+    }
+
+    [[nodiscard]] double value_of_union(int a, int b) const {
+        std::vector<int> both = members(std::min(a, b));
+        for (const int c : members(std::max(a, b))) both.push_back(c);
+        return value(both);
     }
 
     [[nodiscard]] Move best_single() const {
         Move best;
         for (int c = 0; c < clusters_.count(); ++c) {
-            for (int p = 0; p < parts_ && left_[at(c)] > -std::numeric_limits<double>::infinity(); ++p) {
+            for (int p = 0; p < parts_ && left_(c) > -std::numeric_limits<double>::infinity(); ++p) {
                 if (p == part_[at(c)]) continue;
-                const double gain = left_[at(c)] + value(members(p, -1, c)) - value_[at(p)];
+                const double gain = left_(c) + with_(p, c) - value_(p);
                 if (gain > best.gain) best = {gain, c, p, -1};
             }
         }
@@ -190,12 +215,10 @@ class ClusterMoves {
         Move best;
         for (int p = 0; p < parts_; ++p) {
             for (int q = p + 1; q < parts_; ++q) {
-                std::vector<int> both = members(p);
-                for (const int c : members(q)) both.push_back(c);
-                const double united = value(both) - value_[at(p)] - value_[at(q)];
+                const double united = united_(p, q) - value_(p) - value_(q);
                 for (int c = 0; c < clusters_.count(); ++c) {
                     if (part_[at(c)] == p || part_[at(c)] == q) continue;
-                    const double gain = united + left_[at(c)] + alone_[at(c)];
+                    const double gain = united + left_(c) + alone_[at(c)];
                     if (gain > best.gain) best = {gain, c, p, q};
                 }
             }
@@ -217,9 +240,10 @@ class ClusterMoves {
     int parts_;
     bool degenerate_parts_cost_ = false;
     std::vector<double> alone_;  ///< value of each cluster as a part
-    std::vector<double> value_;  ///< of each part
-    std::vector<double>
-        left_;  ///< what a cluster's part gains when it leaves; none from a part of one cluster
+    Eigen::VectorXd value_;      ///< of each part
+    Eigen::MatrixXd with_;       ///< K x C: value of a part with one more cluster
+    Eigen::MatrixXd united_;     ///< K x K: value of two parts as one, above the diagonal
+    Eigen::VectorXd left_;  ///< C: what a cluster's part gains when it leaves; -infinity from a part of one
 };
 
 }  // namespace
