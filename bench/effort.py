@@ -2,7 +2,8 @@
 """The minutes of a simulated person who corrects a run, and how right the labels of all shapes are meanwhile.
 
 usage: bench/effort.py [--coseg build/bin/coseg] [--data $COSEG_DATA] [--sets NAME ...] [--rules active random] [--ranks 2]
-                       [--minutes 30] [--target 98] [--measure 1] [--seed 1] [--out effort.json] [--table FILE] [--scratch DIR]
+                       [--generated SHAPES [FAMILY ...]] [--minutes 30] [--target 98] [--measure 1] [--seed 1]
+                       [--out effort.json] [--table FILE] [--scratch DIR]
 
 The person looks at one shape after the other and leaves it as the truth says, part by part, through `coseg edit` (the
 requests of its page; docs/editing.md). Time is counted as in HAL3D (Yu et al., ICCV 2023, section 4.3), with L labels in the set:
@@ -18,6 +19,8 @@ the run is, which takes as long as checking L parts; this is the one-to-one assi
     active   the shape that coseg edit asks for
     doubt    the least sure one
     random   any, the same order by each call
+
+--generated measures on collections of so many shapes of each family of `coseg generate` (seed 1) instead of a data folder.
 
 Accuracy is the share of the area with the right label, mean over all shapes, corrected ones among them. K is that of the
 truth. Times of acts are wall clock, from the request to the new state of all shapes, on this machine.
@@ -37,7 +40,7 @@ import urllib.request
 
 import numpy
 
-from accuracy import find_sets
+from accuracy import find_sets, generated_sets
 from examples import add_set_arguments
 
 
@@ -243,6 +246,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add_set_arguments(parser)
     parser.add_argument("--rules", nargs="+", default=["active", "random"], choices=["active", "doubt", "random"])
+    parser.add_argument("--generated", nargs="+", metavar=("SHAPES", "FAMILY"))
     parser.add_argument("--minutes", type=float, default=30.0)
     parser.add_argument("--target", type=float, default=98.0)
     parser.add_argument("--tolerance", type=float, default=0.01)
@@ -250,8 +254,14 @@ def main():
     parser.add_argument("--out", default="effort.json")
     parser.add_argument("--scratch", help="folder for the runs and their state, kept; without it they are made in a temporary one")
     arguments = parser.parse_args()
+    made = tempfile.TemporaryDirectory()
+    if arguments.generated:
+        shapes, *families = arguments.generated
+        sets = generated_sets(arguments.coseg, int(shapes), families, made.name)
+    else:
+        sets = find_sets(arguments.data, arguments.sets)
     results = {}
-    for name, sample in find_sets(arguments.data, arguments.sets).items():
+    for name, sample in sets.items():
         work = os.path.join(arguments.scratch, name) if arguments.scratch else tempfile.mkdtemp()
         os.makedirs(work, exist_ok=True)
         results[name] = measure(arguments, sample, work)

@@ -5,7 +5,7 @@
 
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/run_options.hpp"
-#include "solvers/partition/example_scores.hpp"
+#include "solvers/partition/labelled_parts.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
 

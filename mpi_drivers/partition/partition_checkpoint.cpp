@@ -18,7 +18,7 @@ namespace coseg {
 namespace {
 
 constexpr const char* cut_format = "coseg cut";
-constexpr int cut_version = 10;
+constexpr int cut_version = 11;
 
 /// Tile by tile, as columns are owned.
 ContentHash hash_of_coefficients(const Comm& comm, const SparseCoefficients& w) {

@@ -4,7 +4,7 @@
 
 #include "mpi_drivers/options/stage_options.hpp"
 #include "mpi_drivers/partition/partition_checkpoint.hpp"
-#include "solvers/partition/example_scores.hpp"
+#include "solvers/partition/labelled_parts.hpp"
 #include "solvers/subspace/solver_checkpoint.hpp"
 
 namespace coseg {

@@ -1,5 +1,7 @@
 #include "solvers/partition/cluster_sums.hpp"
 
+#include <array>
+
 #include "src/base/index.hpp"
 
 namespace coseg {
@@ -86,6 +88,12 @@ double value_of_part(const ClusterSums& sums, std::span<const int> members) {
     }
     if (area > 0.0) value += sum_over(sums.pooled, members) / area;
     return value - sums.size_weight * relative_variance(shares, squares, static_cast<int>(meshes));
+}
+
+double value_of_parts(const ClusterSums& sums) {
+    double value = 0.0;
+    for (int part = 0; part < sums.count(); ++part) value += value_of_part(sums, std::array{part});
+    return value;
 }
 
 void unite(ClusterSums& sums, int a, int b) {

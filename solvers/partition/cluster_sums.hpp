@@ -29,6 +29,9 @@ ClusterSums cluster_sums(const PartitionObjective& objective, const std::vector<
 /// The value of the part that consists of the clusters `members`; 0 for none.
 double value_of_part(const ClusterSums& sums, std::span<const int> members);
 
+/// The value of all clusters as parts.
+double value_of_parts(const ClusterSums& sums);
+
 /// Cluster b becomes one with cluster a, and the last cluster takes its number b.
 void unite(ClusterSums& sums, int a, int b);
 

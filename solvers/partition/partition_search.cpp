@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "solvers/partition/cluster_merging.hpp"
-#include "solvers/partition/labelled_parts.hpp"
 #include "solvers/partition/part_exchange.hpp"
 #include "solvers/partition/part_shares.hpp"
 #include "solvers/partition/patch_moves.hpp"
@@ -136,16 +135,11 @@ std::vector<std::size_t> ranked_candidates(const std::vector<PartitionCandidate>
     return order;
 }
 
-namespace {
-
-/// The candidate with other labels, described.
 PartitionCandidate relabelled(const SearchTask& task, PartitionCandidate candidate, std::vector<int> labels) {
     candidate.labels = std::move(labels);
     describe_labels(task, candidate);
     return candidate;
 }
-
-}  // namespace
 
 PartitionCandidate expanded(const Comm& comm, const SearchTask& task, PartitionCandidate outcome) {
     const auto score = [&](const std::vector<int>& labels) {
@@ -157,20 +151,6 @@ PartitionCandidate expanded(const Comm& comm, const SearchTask& task, PartitionC
     outcome.labels =
         climb_by_expansion(comm, task.objective, {}, outcome.labels, task.parts, score, falling_inertias);
     describe_outcome(task, outcome);
-    return outcome;
-}
-
-PartitionCandidate labelled(const Comm& comm, const SearchTask& task, const Eigen::MatrixXd& scores,
-                            const KnownParts& known, PartitionCandidate outcome) {
-    outcome.labels = named_parts(scores, outcome.labels, task.evidence.patch_area);
-    for (std::size_t i = 0; i < outcome.labels.size(); ++i) {
-        if (known.fixed[i] >= 0) outcome.labels[i] = known.fixed[i];
-    }
-    const auto score = [&](const std::vector<int>& labels) {
-        return relabelled(task, outcome, labels).outcome.score + gain_of(known, labels);
-    };
-    outcome.labels = climb_by_expansion(comm, task.objective, known, outcome.labels, task.parts, score);
-    describe_labels(task, outcome);
     return outcome;
 }
 

@@ -49,9 +49,7 @@ std::vector<std::size_t> ranked_candidates(const std::vector<PartitionCandidate>
 /// where there were some. Collective.
 PartitionCandidate expanded(const Comm& comm, const SearchTask& task, PartitionCandidate outcome);
 
-/// The candidate with labels for its parts, by named_parts, and after expansions with what is known of
-/// patches. Collective.
-PartitionCandidate labelled(const Comm& comm, const SearchTask& task, const Eigen::MatrixXd& scores,
-                            const KnownParts& known, PartitionCandidate outcome);
+/// The candidate with other labels, which are kept as they are numbered, and what they come to.
+PartitionCandidate relabelled(const SearchTask& task, PartitionCandidate candidate, std::vector<int> labels);
 
 }  // namespace coseg

@@ -1,12 +1,18 @@
 #include "solvers/partition/patch_partition.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "solvers/partition/cluster_sums.hpp"
+#include "solvers/partition/corrected_parts.hpp"
 #include "solvers/partition/cut_graphs.hpp"
+#include "solvers/partition/labelled_parts.hpp"
 #include "solvers/partition/part_confidence.hpp"
 #include "solvers/partition/part_levels.hpp"
+#include "solvers/partition/part_regression.hpp"
 #include "solvers/partition/part_scores.hpp"
 #include "solvers/partition/part_shares.hpp"
 #include "solvers/partition/partition_search.hpp"
@@ -76,41 +82,125 @@ std::vector<ChoiceDescriptor> with_scores(std::span<const ChoiceDescriptor> desc
     return all;
 }
 
+/// The partitions that explain the scores of the examples too. Collective.
+Found found_explaining(const Comm& comm, const PartitionEvidence& evidence, const Eigen::MatrixXd& scores,
+                       const CutOptions& options, std::vector<PartitionCandidate> clusterings) {
+    const std::vector<ChoiceDescriptor> descriptors =
+        with_scores(evidence.descriptors, scores, options.examples.explained);
+    PartitionEvidence sought = evidence;
+    sought.descriptors = descriptors;
+    const PartitionObjective objective = partition_objective(sought, options.choice);
+    Found found;
+    found.candidates =
+        search_partitions(comm, {sought, objective, options.choice, options.parts}, std::move(clusterings));
+    found.chosen = ranked_candidates(found.candidates).front();
+    return found;
+}
+
+std::vector<int> labels_of_best_scores(const Eigen::MatrixXd& scores) {
+    std::vector<int> labels;
+    for (Eigen::Index i = 0; i < scores.cols(); ++i) {
+        Eigen::Index best = 0;
+        scores.col(i).maxCoeff(&best);
+        labels.push_back(static_cast<int>(best));
+    }
+    return labels;
+}
+
+/// Labels of which one set becomes the base that examples are followed from: those with the largest sum of
+/// the objective, the mean over the area of the scores, and the share of what is known that they have right.
+class BaseChoice {
+  public:
+    /// scores: of the examples alone, K x N. gain: of both of the latter.
+    BaseChoice(const PartitionObjective& objective, const ExampleLabels& examples, Eigen::MatrixXd scores,
+               double gain)
+        : objective_(objective),
+          known_(known_labels(examples, objective.area)),
+          scores_(std::move(scores)),
+          gain_(gain) {
+        double all = 0.0;
+        double known = 0.0;
+        for (std::size_t i = 0; i < known_.size(); ++i) {
+            all += objective.area[i];
+            known += known_[i] >= 0 ? objective.area[i] : 0.0;
+        }
+        for (std::size_t i = 0; i < known_.size(); ++i)
+            weight_.push_back(objective.area[i] * (1.0 / all + (known_[i] >= 0 ? 1.0 / known : 0.0)));
+    }
+
+    /// With the labels that suit these parts best, see offer().
+    bool offer_parts(const std::vector<int>& part_of_patch) {
+        return offer(named_parts(scores_, part_of_patch, weight_));
+    }
+
+    /// Whether the labels are better than all before.
+    bool offer(std::vector<int> labels) {
+        double value = value_of_parts(cluster_sums(objective_, labels, static_cast<int>(scores_.rows())));
+        for (std::size_t i = 0; i < labels.size(); ++i)
+            value += gain_ * weight_[i] * scores_(labels[i], static_cast<Eigen::Index>(i));
+        if (!(value > best_)) return false;
+        best_ = value;
+        labels_ = std::move(labels);
+        return true;
+    }
+
+    /// The best labels, with those that are known.
+    [[nodiscard]] std::vector<int> labels() const {
+        std::vector<int> labels = labels_;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (known_[i] >= 0) labels[i] = known_[i];
+        }
+        return labels;
+    }
+
+  private:
+    const PartitionObjective& objective_;
+    std::vector<int> known_;
+    Eigen::MatrixXd
+        scores_;  ///< of known patches 1 for the known label, so that the gain counts what is right
+    double gain_;
+    std::vector<double> weight_;  ///< of each patch: its share of all area, and of the known one
+    double best_ = -std::numeric_limits<double>::infinity();
+    std::vector<int> labels_;
+};
+
 /// The evidence of the cut, and the frame of its positions.
 struct PlacedEvidence {
     const PartitionEvidence& evidence;
     const PositionFrame& frame;
 };
 
-/// The search looks for partitions that explain the scores of the examples too; the best one gets their
-/// labels. Collective.
+/// From the partition without examples, the one that explains their scores, or the labels with the best
+/// scores, whichever suits the examples best, to labels that follow them. Collective.
 Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvidence& placed,
                         const CutOptions& options, std::vector<PartitionCandidate> clusterings) {
     const PartitionEvidence& evidence = placed.evidence;
+    std::optional<PartRegression> regression;
+    SaidParts said{{}, input.examples->area, {}};
     Eigen::MatrixXd scores;
     agree(comm, [&] {
-        scores = example_scores(
-            {*input.features, evidence.neighbors, input.positions, placed.frame, input.patch_area},
-            *input.examples);
+        regression.emplace(
+            PatchLooks{*input.features, input.positions, placed.frame, input.patch_area, input.mesh_of},
+            evidence.neighbors, std::vector<double>{});
+        scores = regression->scores(said);
     });
-    const std::vector<ChoiceDescriptor> descriptors =
-        with_scores(input.descriptors, scores, options.examples.explained);
-    PartitionEvidence sought = evidence;
-    sought.descriptors = descriptors;
-    Found found;
-    {
-        const PartitionObjective objective = partition_objective(sought, options.choice);
-        found.candidates = search_partitions(comm, {sought, objective, options.choice, options.parts},
-                                             std::move(clusterings));
-    }
-    found.chosen = ranked_candidates(found.candidates).front();
+    std::vector<int> best_labels = labels_of_best_scores(scores);
+    Found alone = found_alone(comm, evidence, options, clusterings);
+    Found explaining = found_explaining(comm, evidence, scores, options, std::move(clusterings));
     const PartitionObjective objective = partition_objective(evidence, options.choice);
-    const KnownParts known = known_parts(scores, *input.examples, input.patch_area, options.examples);
+    BaseChoice base(objective, *input.examples, std::move(scores), options.examples.scores);
+    base.offer_parts(alone.candidates[alone.chosen].labels);
+    Found& found = base.offer_parts(explaining.candidates[explaining.chosen].labels) ? explaining : alone;
+    base.offer(std::move(best_labels));
+    said.base = base.labels();
+    said.allowed = Eigen::MatrixXi::Ones(options.parts, objective.meshes);
+    agree(comm, [&] { scores = regression->scores(said); });
+    CorrectedPartition corrected = corrected_partition(comm, objective, said, scores, options.examples);
     PartitionCandidate& chosen = found.candidates[found.chosen];
-    chosen = labelled(comm, {evidence, objective, options.choice, options.parts}, scores, known,
-                      std::move(chosen));
-    found.confidence = part_confidence(objective, known, chosen.labels, options.parts);
-    return found;
+    chosen = relabelled({evidence, objective, options.choice, options.parts}, std::move(chosen),
+                        std::move(corrected.parts));
+    found.confidence = std::move(corrected.confidence);
+    return std::move(found);
 }
 
 std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::vector<int>& mesh_of,

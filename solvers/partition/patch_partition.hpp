@@ -15,6 +15,7 @@
 #include "solvers/partition/start_screening.hpp"
 #include "solvers/spectral/spectral_embedding.hpp"
 #include "solvers/subspace/coefficients.hpp"
+#include "src/histograms/feature_matrices.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/records/cut_result.hpp"
 

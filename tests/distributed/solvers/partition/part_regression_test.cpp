@@ -1,10 +1,11 @@
-// Scores of labels against the ridge regression written out, and what is known of patches.
+// Scores of parts against the ridge regression written out, and what is known of patches.
 
-#include "solvers/partition/example_scores.hpp"
+#include "solvers/partition/part_regression.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <numeric>
 
 #include "solvers/partition/labelled_parts.hpp"
 #include "src/base/error.hpp"
@@ -14,7 +15,7 @@
 namespace coseg {
 namespace {
 
-/// Patches with random features, in a row where each touches the next, in any place.
+/// Patches of four meshes with random features, in a row where each touches the next, in any place.
 struct Patches {
     int count;
     FeatureMatrices features;
@@ -22,7 +23,9 @@ struct Patches {
     Eigen::Matrix3Xd positions;
     PositionFrame frame;
     std::vector<double> area;
-    ExampleLabels examples;
+    std::vector<int> mesh_of;
+    std::vector<double> confidence;
+    SaidParts said;
 
     Patches(int patches, int examples_of, std::uint64_t seed) : count(patches) {
         SeededStream random(seed);
@@ -36,14 +39,20 @@ struct Patches {
         frame.mean = {0.1, 0.2, 0.3};
         frame.directions << 2, 0, 0, 0.3, 1, 0, 0, 0.1, 3;
         frame.correlation = {0.1, 0.5, 0.9};
-        examples.area = Eigen::MatrixXd::Zero(3, count);
+        said.area = Eigen::MatrixXd::Zero(3, count);
         for (int i = 0; i < count; ++i) {
             area.push_back(0.5 + random.uniform());
+            mesh_of.push_back(4 * i / count);
+            confidence.push_back(random.uniform());
             if (i + 1 < count) neighbors.push_back({i, i + 1, 0.1 + random.uniform(), 0.0});
-            if (i < examples_of) examples.area(i % 2, i) = (i % 3 == 0 ? 0.3 : 1.0) * area.back();
+            if (i < examples_of) said.area(i % 2, i) = (i % 3 == 0 ? 0.3 : 1.0) * area.back();
         }
     }
-    [[nodiscard]] ScoreInput input() const { return {features, neighbors, &positions, frame, area}; }
+
+    [[nodiscard]] Eigen::MatrixXd scores() const {
+        return PartRegression({features, &positions, frame, area, mesh_of}, neighbors, confidence)
+            .scores(said);
+    }
 
     /// All that a score may look at, a column a patch.
     [[nodiscard]] Eigen::MatrixXd all_features() const {
@@ -72,59 +81,66 @@ struct Patches {
 /// Normal equations with an unpenalised constant as one more feature.
 Eigen::MatrixXd regression(const Patches& patches) {
     const Eigen::MatrixXd x = patches.all_features();
-    const Eigen::VectorXd said = patches.examples.area.colwise().sum().transpose();
-    const auto n = static_cast<double>((said.array() > 0.0).count());
+    const double area = std::accumulate(patches.area.begin(), patches.area.end(), 0.0);
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(14, 14);
-    normal.diagonal().head(13).setOnes();
+    normal.diagonal().head(13).setConstant(area / patches.count);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(14, 3);
     Eigen::MatrixXd with_one(14, patches.count);
     with_one << x, Eigen::RowVectorXd::Ones(patches.count);
     for (int i = 0; i < patches.count; ++i) {
-        if (said(i) <= 0.0) continue;
-        const double weight = said(i) * n / said.sum();
-        normal += weight * with_one.col(i) * with_one.col(i).transpose();
-        right += weight * with_one.col(i) * (patches.examples.area.col(i) / said(i)).transpose();
+        Eigen::VectorXd target = patches.said.area.col(i);
+        if (!patches.said.base.empty())  // a tenth of one of four shapes
+            target(patches.said.base[at(i)]) += 0.1 / 4.0 * patches.area[at(i)] * patches.confidence[at(i)];
+        normal += target.sum() * with_one.col(i) * with_one.col(i).transpose();
+        right += with_one.col(i) * target.transpose();
     }
     return (normal.lu().solve(right)).transpose() * with_one;
 }
 
-TEST(ExampleScores, AreTheRidgeRegressionOfTheLabelsWithFewAndWithManyExamples) {
-    for (const int examples : {7, 30}) {
-        const Patches patches(40, examples, 5);
-        const Eigen::MatrixXd scores = example_scores(patches.input(), patches.examples);
-        const Eigen::MatrixXd expected = regression(patches);
-        const std::vector<int> known = known_labels(patches.examples, patches.area);
-        for (int i = 0; i < patches.count; ++i) {
-            if (known[at(i)] < 0) {
-                EXPECT_NEAR((scores.col(i) - expected.col(i)).head(2).norm(), 0.0, 1e-9)
-                    << examples << " " << i;
-                EXPECT_NEAR(scores.col(i).head(2).sum(), 1.0, 1e-9);
+void expect_regression(const Patches& patches, int predicted_parts) {
+    const Eigen::MatrixXd scores = patches.scores();
+    const Eigen::MatrixXd expected = regression(patches);
+    const std::vector<int> known = known_labels({patches.said.area}, patches.area);
+    for (int i = 0; i < patches.count; ++i) {
+        if (known[at(i)] < 0) {
+            EXPECT_NEAR((scores.col(i) - expected.col(i)).head(predicted_parts).norm(), 0.0, 1e-5) << i;
+            EXPECT_NEAR(scores.col(i).head(predicted_parts).sum(), 1.0, 1e-5);
+            if (predicted_parts == 2) {
                 EXPECT_EQ(scores(2, i), 1.0 / 3.0) << "a label without an example";
-            } else {
-                EXPECT_EQ(scores(known[at(i)], i), 1.0);
-                EXPECT_EQ(scores.col(i).sum(), 1.0);
             }
+        } else {
+            EXPECT_EQ(scores(known[at(i)], i), 1.0);
+            EXPECT_EQ(scores.col(i).sum(), 1.0);
         }
     }
 }
 
-TEST(ExampleScores, PlacesOfShapesThatDoNotStandAlikeDoNotCount) {
-    Patches patches(40, 12, 5);
-    patches.frame.correlation.setZero();
-    const Eigen::MatrixXd scores = example_scores(patches.input(), patches.examples);
-    patches.positions *= -3.0;
-    EXPECT_EQ(example_scores(patches.input(), patches.examples), scores);
+TEST(PartRegression, IsTheRidgeRegressionOfWhatIsSaid) {
+    for (const int examples : {7, 30}) expect_regression(Patches(40, examples, 5), 2);
 }
 
-TEST(ExampleScores, ALabelIsKnownWhereHalfOfThePatchIsSaid) {
+TEST(PartRegression, LearnsFromTheBaseAsMuchAsFromATenthOfAShape) {
+    for (const int examples : {0, 7}) {
+        Patches patches(40, examples, 5);
+        for (int i = 0; i < patches.count; ++i) patches.said.base.push_back((i / 2) % 3);
+        expect_regression(patches, 3);
+    }
+}
+
+TEST(PartRegression, PlacesOfShapesThatDoNotStandAlikeDoNotCount) {
+    Patches patches(40, 12, 5);
+    patches.frame.correlation.setZero();
+    const Eigen::MatrixXd scores = patches.scores();
+    patches.positions *= -3.0;
+    EXPECT_EQ(patches.scores(), scores);
+}
+
+TEST(KnownLabels, AreThoseOfPatchesOfWhichHalfIsSaid) {
     ExampleLabels examples{(Eigen::MatrixXd(2, 4) << 0.5, 0.49, 0.3, 0.0, 0.0, 0.0, 0.4, 0.0).finished()};
     EXPECT_EQ(known_labels(examples, {1.0, 1.0, 1.0, 0.0}), (std::vector<int>{0, -1, 1, -1}));
 }
 
-TEST(ExampleScores, WithoutAnyLabelAreRefused) {
-    Patches patches(10, 0, 5);
-    EXPECT_THROW(example_scores(patches.input(), patches.examples), Error);
-}
+TEST(PartRegression, OfNothingIsRefused) { EXPECT_THROW(Patches(10, 0, 5).scores(), Error); }
 
 TEST(LabelledParts, TakeTheLabelsThatSuitThemBestEachAnother) {
     // Label 0 suits both parts, but part 0 more.

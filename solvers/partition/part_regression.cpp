@@ -1,0 +1,172 @@
+#include "solvers/partition/part_regression.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "solvers/affinity/position_correlation.hpp"
+#include "solvers/partition/labelled_parts.hpp"
+#include "src/base/error.hpp"
+#include "src/base/index.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// Principal components of the features that are kept. Their number bounds the time of a prediction.
+constexpr Eigen::Index components = 96;
+/// Shapes of examples that the base counts for.
+constexpr double base_shapes = 0.1;
+constexpr double regression_ridge = 1.0;
+/// Columns that are added up together, so that sums have one order.
+constexpr Eigen::Index columns_at_once = 2048;
+
+/// Sums of weighted examples.
+struct Moments {
+    double weight = 0.0;
+    Eigen::VectorXd x;        ///< d
+    Eigen::VectorXd y;        ///< K
+    Eigen::MatrixXd squares;  ///< d x d, the lower triangle
+    Eigen::MatrixXd cross;    ///< K x d
+};
+
+void add_base(const Eigen::MatrixXf& features, const std::vector<int>& base,
+              const std::vector<double>& weight, double of_base, Moments& m) {
+    for (std::size_t i = 0; i < base.size(); ++i) {
+        const Eigen::VectorXd x = features.col(static_cast<Eigen::Index>(i)).cast<double>();
+        const double w = of_base * weight[i];
+        m.weight += w;
+        m.x += w * x;
+        m.y(base[i]) += w;
+        m.cross.row(base[i]) += w * x.transpose();
+    }
+}
+
+void add_said(const Eigen::MatrixXf& features, const Eigen::MatrixXd& said, Moments& m) {
+    std::vector<Eigen::Index> spoken;
+    for (Eigen::Index i = 0; i < said.cols(); ++i) {
+        const double area = said.col(i).sum();
+        if (area <= 0.0) continue;
+        const Eigen::VectorXd x = features.col(i).cast<double>();
+        spoken.push_back(i);
+        m.weight += area;
+        m.x += area * x;
+        m.y += said.col(i);
+        m.cross += said.col(i) * x.transpose();
+    }
+    if (spoken.empty()) return;
+    Eigen::MatrixXd examples(features.rows(), static_cast<Eigen::Index>(spoken.size()));
+    for (std::size_t j = 0; j < spoken.size(); ++j)
+        examples.col(static_cast<Eigen::Index>(j)) =
+            std::sqrt(said.col(spoken[j]).sum()) * features.col(spoken[j]).cast<double>();
+    m.squares.selfadjointView<Eigen::Lower>().rankUpdate(examples);
+}
+
+/// score = slope x + constant.
+struct LinearScore {
+    Eigen::MatrixXd slope;  ///< K x d
+    Eigen::VectorXd constant;
+};
+
+LinearScore fitted(Moments m, double ridge) {
+    const Eigen::VectorXd mean_x = m.x / m.weight;
+    const Eigen::VectorXd mean_y = m.y / m.weight;
+    m.squares.selfadjointView<Eigen::Lower>().rankUpdate(mean_x, -m.weight);
+    m.squares.diagonal().array() += ridge;
+    m.cross -= m.weight * mean_y * mean_x.transpose();
+    const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(m.squares);
+    LinearScore fit;
+    fit.slope = factor.solve(m.cross.transpose()).transpose();
+    fit.constant = mean_y - fit.slope * mean_x;
+    return fit;
+}
+
+}  // namespace
+
+PartRegression::PartRegression(const PatchLooks& looks, const std::vector<GlobalPatchNeighbors>& neighbors,
+                               const std::vector<double>& confidence)
+    : patch_area_(looks.area), meshes_(looks.mesh_of.empty() ? 0 : 1 + looks.mesh_of.back()) {
+    const auto patches = static_cast<int>(patch_area_.size());
+    if (looks.features.columns() != patches)
+        throw Error(ExitCode::internal, "the features of a regression of parts are not of all patches");
+    for (std::size_t i = 0; i < patch_area_.size(); ++i)
+        weight_.push_back(patch_area_[i] * (confidence.empty() ? 1.0 : confidence[i]));
+    reduce_features(looks.features);
+    add_neighborhoods(neighbors);
+    x_.bottomRows<3>() = correlated_places(looks.frame, looks.positions, patches).cast<float>();
+    sum_base();
+}
+
+/// The first rows of x_.
+void PartRegression::reduce_features(const FeatureMatrices& features) {
+    const Eigen::Map<const Eigen::MatrixXd> all(features.data(), features.dimension(), features.columns());
+    const Eigen::Index kept = std::min(components, all.rows());
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(all.rows());
+    double area = 0.0;
+    for (Eigen::Index i = 0; i < all.cols(); ++i) {
+        mean += patch_area_[at(i)] * all.col(i);
+        area += patch_area_[at(i)];
+    }
+    if (area > 0.0) mean /= area;
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(all.rows(), all.rows());
+    for (Eigen::Index first = 0; first < all.cols(); first += columns_at_once) {
+        const Eigen::Index count = std::min(columns_at_once, all.cols() - first);
+        Eigen::MatrixXd block = all.middleCols(first, count).colwise() - mean;
+        for (Eigen::Index i = 0; i < count; ++i) block.col(i) *= std::sqrt(patch_area_[at(first + i)]);
+        covariance.selfadjointView<Eigen::Lower>().rankUpdate(block);
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+    const Eigen::MatrixXd axes = eigen.eigenvectors().rightCols(kept);
+    x_ = Eigen::MatrixXf::Zero(2 * kept + 3, all.cols());
+    for (Eigen::Index first = 0; first < all.cols(); first += columns_at_once) {
+        const Eigen::Index count = std::min(columns_at_once, all.cols() - first);
+        const Eigen::MatrixXd block = all.middleCols(first, count).colwise() - mean;
+        x_.block(0, first, kept, count) = (axes.transpose() * block).cast<float>();
+    }
+}
+
+/// The next rows: the mean of the neighbours, weighted by the length of the common boundary.
+void PartRegression::add_neighborhoods(const std::vector<GlobalPatchNeighbors>& pairs) {
+    const Eigen::Index kept = (x_.rows() - 3) / 2;
+    const auto neighbors = weighted_neighbors(pairs, static_cast<int>(x_.cols()));
+    for (Eigen::Index i = 0; i < x_.cols(); ++i) {
+        for (const WeightedNeighbor& near : neighbors[at(i)])
+            x_.col(i).segment(kept, kept) += static_cast<float>(near.weight) * x_.col(near.patch).head(kept);
+    }
+}
+
+void PartRegression::sum_base() {
+    base_squares_ = Eigen::MatrixXd::Zero(x_.rows(), x_.rows());
+    for (Eigen::Index first = 0; first < x_.cols(); first += columns_at_once) {
+        const Eigen::Index count = std::min(columns_at_once, x_.cols() - first);
+        Eigen::MatrixXd block = x_.middleCols(first, count).cast<double>();
+        for (Eigen::Index i = 0; i < count; ++i) block.col(i) *= std::sqrt(weight_[at(first + i)]);
+        base_squares_.selfadjointView<Eigen::Lower>().rankUpdate(block);
+    }
+}
+
+Eigen::MatrixXd PartRegression::scores(const SaidParts& said) const {
+    const Eigen::Index d = x_.rows();
+    const Eigen::Index k = said.area.rows();
+    const double of_base = said.base.empty() ? 0.0 : base_shapes / meshes_;
+    Moments moments{0.0, Eigen::VectorXd::Zero(d), Eigen::VectorXd::Zero(k), of_base * base_squares_,
+                    Eigen::MatrixXd::Zero(k, d)};
+    add_base(x_, said.base, weight_, of_base, moments);
+    add_said(x_, said.area, moments);
+    if (moments.weight <= 0.0) throw Error(ExitCode::input, "the examples say nothing of any patch");
+    // Weights are areas.
+    const double patches =
+        static_cast<double>(x_.cols()) / std::accumulate(patch_area_.begin(), patch_area_.end(), 0.0);
+    const LinearScore fit = fitted(std::move(moments), regression_ridge / patches);
+    Eigen::MatrixXd scores =
+        ((fit.slope.cast<float>() * x_).colwise() + fit.constant.cast<float>().eval()).cast<double>();
+    for (Eigen::Index part = 0; part < k && said.base.empty(); ++part) {
+        if (said.area.row(part).sum() <= 0.0) scores.row(part).setConstant(1.0 / static_cast<double>(k));
+    }
+    hold_known_labels({said.area}, patch_area_, scores);
+    return scores;
+}
+
+}  // namespace coseg
