@@ -2,6 +2,7 @@
 // Labels that are given for some patches, and parts without names that become these labels.
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "solvers/partition/part_expansion.hpp"
@@ -38,6 +39,38 @@ void hold_known_labels(const ExampleLabels& examples, const std::vector<double>&
 /// another label. scores: K x N; part_of_patch: 0 .. K-1.
 std::vector<int> named_parts(const Eigen::MatrixXd& scores, const std::vector<int>& part_of_patch,
                              const std::vector<double>& weight);
+
+/// The label with the best score of each patch, of equal ones the lowest. scores: K x N.
+std::vector<int> labels_of_best_scores(const Eigen::MatrixXd& scores);
+
+/// Labels of which one set becomes the base that examples are followed from: those with the largest sum of
+/// the objective, the mean over the area of the scores, and the share of what is known that they have right.
+/// Serial.
+class BaseChoice {
+  public:
+    /// scores: of the examples alone, K x N, 1 for the known label of known patches. gain: of the scores, and
+    /// of what is right. The objective is referred to.
+    BaseChoice(const PartitionObjective& objective, const ExampleLabels& examples, Eigen::MatrixXd scores,
+               double gain);
+
+    /// With the labels that suit these parts best, see offer().
+    bool offer_parts(const std::vector<int>& part_of_patch);
+
+    /// Whether the labels are better than all before.
+    bool offer(std::vector<int> labels);
+
+    /// The best labels, with those that are known.
+    [[nodiscard]] std::vector<int> labels() const;
+
+  private:
+    const PartitionObjective& objective_;
+    std::vector<int> known_;
+    Eigen::MatrixXd scores_;
+    double gain_;
+    std::vector<double> weight_;  ///< of each patch: its share of all area, and of the known one
+    double best_ = -std::numeric_limits<double>::infinity();
+    std::vector<int> labels_;
+};
 
 /// What examples say of the parts of patches: known labels are fixed, and scores are gains.
 KnownParts known_parts(const Eigen::MatrixXd& scores, const ExampleLabels& examples,

@@ -1,7 +1,6 @@
 #include "solvers/partition/patch_partition.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -97,73 +96,6 @@ Found found_explaining(const Comm& comm, const PartitionEvidence& evidence, cons
     return found;
 }
 
-std::vector<int> labels_of_best_scores(const Eigen::MatrixXd& scores) {
-    std::vector<int> labels;
-    for (Eigen::Index i = 0; i < scores.cols(); ++i) {
-        Eigen::Index best = 0;
-        scores.col(i).maxCoeff(&best);
-        labels.push_back(static_cast<int>(best));
-    }
-    return labels;
-}
-
-/// Labels of which one set becomes the base that examples are followed from: those with the largest sum of
-/// the objective, the mean over the area of the scores, and the share of what is known that they have right.
-class BaseChoice {
-  public:
-    /// scores: of the examples alone, K x N. gain: of both of the latter.
-    BaseChoice(const PartitionObjective& objective, const ExampleLabels& examples, Eigen::MatrixXd scores,
-               double gain)
-        : objective_(objective),
-          known_(known_labels(examples, objective.area)),
-          scores_(std::move(scores)),
-          gain_(gain) {
-        double all = 0.0;
-        double known = 0.0;
-        for (std::size_t i = 0; i < known_.size(); ++i) {
-            all += objective.area[i];
-            known += known_[i] >= 0 ? objective.area[i] : 0.0;
-        }
-        for (std::size_t i = 0; i < known_.size(); ++i)
-            weight_.push_back(objective.area[i] * (1.0 / all + (known_[i] >= 0 ? 1.0 / known : 0.0)));
-    }
-
-    /// With the labels that suit these parts best, see offer().
-    bool offer_parts(const std::vector<int>& part_of_patch) {
-        return offer(named_parts(scores_, part_of_patch, weight_));
-    }
-
-    /// Whether the labels are better than all before.
-    bool offer(std::vector<int> labels) {
-        double value = value_of_parts(cluster_sums(objective_, labels, static_cast<int>(scores_.rows())));
-        for (std::size_t i = 0; i < labels.size(); ++i)
-            value += gain_ * weight_[i] * scores_(labels[i], static_cast<Eigen::Index>(i));
-        if (!(value > best_)) return false;
-        best_ = value;
-        labels_ = std::move(labels);
-        return true;
-    }
-
-    /// The best labels, with those that are known.
-    [[nodiscard]] std::vector<int> labels() const {
-        std::vector<int> labels = labels_;
-        for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (known_[i] >= 0) labels[i] = known_[i];
-        }
-        return labels;
-    }
-
-  private:
-    const PartitionObjective& objective_;
-    std::vector<int> known_;
-    Eigen::MatrixXd
-        scores_;  ///< of known patches 1 for the known label, so that the gain counts what is right
-    double gain_;
-    std::vector<double> weight_;  ///< of each patch: its share of all area, and of the known one
-    double best_ = -std::numeric_limits<double>::infinity();
-    std::vector<int> labels_;
-};
-
 /// The evidence of the cut, and the frame of its positions.
 struct PlacedEvidence {
     const PartitionEvidence& evidence;
@@ -177,23 +109,24 @@ Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvi
     const PartitionEvidence& evidence = placed.evidence;
     std::optional<PartRegression> regression;
     SaidParts said{{}, input.examples->area, {}};
-    Eigen::MatrixXd scores;
+    Eigen::MatrixXd told;  // the scores by the examples alone
     agree(comm, [&] {
         regression.emplace(
             PatchLooks{*input.features, input.positions, placed.frame, input.patch_area, input.mesh_of},
             evidence.neighbors, std::vector<double>{});
-        scores = regression->scores(said);
+        told = regression->scores(said);
     });
-    std::vector<int> best_labels = labels_of_best_scores(scores);
+    std::vector<int> best_labels = labels_of_best_scores(told);
     Found alone = found_alone(comm, evidence, options, clusterings);
-    Found explaining = found_explaining(comm, evidence, scores, options, std::move(clusterings));
+    Found explaining = found_explaining(comm, evidence, told, options, std::move(clusterings));
     const PartitionObjective objective = partition_objective(evidence, options.choice);
-    BaseChoice base(objective, *input.examples, std::move(scores), options.examples.scores);
+    BaseChoice base(objective, *input.examples, std::move(told), options.examples.scores);
     base.offer_parts(alone.candidates[alone.chosen].labels);
     Found& found = base.offer_parts(explaining.candidates[explaining.chosen].labels) ? explaining : alone;
     base.offer(std::move(best_labels));
     said.base = base.labels();
     said.allowed = Eigen::MatrixXi::Ones(options.parts, objective.meshes);
+    Eigen::MatrixXd scores;
     agree(comm, [&] { scores = regression->scores(said); });
     CorrectedPartition corrected = corrected_partition(comm, objective, said, scores, options.examples);
     PartitionCandidate& chosen = found.candidates[found.chosen];

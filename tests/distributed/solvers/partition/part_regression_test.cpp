@@ -148,5 +148,29 @@ TEST(LabelledParts, TakeTheLabelsThatSuitThemBestEachAnother) {
     EXPECT_EQ(named_parts(scores, {1, 0, 0}, {1.0, 1.0, 1.0}), (std::vector<int>{1, 0, 0}));
 }
 
+/// Four patches of two meshes, of which the first is known to be 0, 1; nothing else speaks for any labels.
+TEST(BaseChoice, TakesWhatHasTheKnownLabelsRightAgainstBetterScoresElsewhere) {
+    PartitionObjective objective;
+    objective.deviations = Eigen::MatrixXf::Zero(1, 4);
+    objective.per_mesh = objective.pooled = Eigen::VectorXf::Zero(1);
+    objective.ties.resize(4);
+    objective.mesh_of = {0, 0, 1, 1};
+    objective.area.assign(4, 1.0);
+    objective.share.assign(4, 0.5);
+    objective.meshes = 2;
+    ExampleLabels examples{Eigen::MatrixXd::Zero(2, 4)};
+    examples.area(0, 0) = examples.area(1, 1) = 1.0;
+    const Eigen::MatrixXd scores =
+        (Eigen::MatrixXd(2, 4) << 1.0, 0.0, 0.9, 0.6, 0.0, 1.0, 0.1, 0.4).finished();
+    BaseChoice base(objective, examples, scores, 75.0);
+    EXPECT_TRUE(base.offer({0, 0, 0, 0}));
+    EXPECT_FALSE(base.offer({0, 0, 1, 1}));
+    EXPECT_EQ(base.labels(), (std::vector<int>{0, 1, 0, 0})) << "known labels are held";
+    EXPECT_TRUE(base.offer_parts({1, 0, 0, 0})) << "named 0, 1, 1, 1";
+    EXPECT_EQ(base.labels(), (std::vector<int>{0, 1, 1, 1}));
+    EXPECT_TRUE(base.offer(labels_of_best_scores(scores)));
+    EXPECT_EQ(base.labels(), (std::vector<int>{0, 1, 0, 0}));
+}
+
 }  // namespace
 }  // namespace coseg
