@@ -116,6 +116,16 @@ def generated_sets(coseg, shapes, families, folder, options=()):
     return sets
 
 
+def chosen_sets(arguments, folder):
+    """Those of --generated, made in `folder`, or else of the data folder."""
+    if not arguments.generated:
+        return find_sets(arguments.data, arguments.sets)
+    shapes, *families = arguments.generated
+    if not shapes.isdigit() or int(shapes) < 2:
+        sys.exit(f"accuracy: --generated takes a number of shapes of at least 2, not {shapes}")
+    return generated_sets(arguments.coseg, int(shapes), families, folder)
+
+
 def random_rotation(name):
     """Of the name alone; uniform: a unit quaternion of four normal numbers."""
     numbers = random.Random(name)
@@ -373,13 +383,7 @@ def main():
     if not os.path.isfile(args.coseg):
         sys.exit(f"accuracy: no program {args.coseg}; build it, or give its path with --coseg")
     with tempfile.TemporaryDirectory() as scratch:
-        if args.generated:
-            shapes, *families = args.generated
-            if not shapes.isdigit() or int(shapes) < 2:
-                sys.exit(f"accuracy: --generated takes a number of shapes of at least 2, not {shapes}")
-            sets = generated_sets(args.coseg, int(shapes), families, scratch)
-        else:
-            sets = find_sets(args.data, args.sets)
+        sets = chosen_sets(args, scratch)
         if args.turned:
             sets = turned_sets(sets, scratch)
         figures = read_figures(args.out)

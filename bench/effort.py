@@ -40,7 +40,7 @@ import urllib.request
 
 import numpy
 
-from accuracy import find_sets, generated_sets
+from accuracy import chosen_sets
 from examples import add_set_arguments
 
 
@@ -254,22 +254,17 @@ def main():
     parser.add_argument("--out", default="effort.json")
     parser.add_argument("--scratch", help="folder for the runs and their state, kept; without it they are made in a temporary one")
     arguments = parser.parse_args()
-    made = tempfile.TemporaryDirectory()
-    if arguments.generated:
-        shapes, *families = arguments.generated
-        sets = generated_sets(arguments.coseg, int(shapes), families, made.name)
-    else:
-        sets = find_sets(arguments.data, arguments.sets)
     results = {}
-    for name, sample in sets.items():
-        work = os.path.join(arguments.scratch, name) if arguments.scratch else tempfile.mkdtemp()
-        os.makedirs(work, exist_ok=True)
-        results[name] = measure(arguments, sample, work)
-        if not arguments.scratch:
-            shutil.rmtree(work)
-        print("\n".join(table({name: results[name]}).splitlines()[2:]), flush=True)
-        with open(arguments.out, "w") as file:
-            json.dump(results, file, indent=1)
+    with tempfile.TemporaryDirectory() as scratch:
+        for name, sample in chosen_sets(arguments, scratch).items():
+            work = os.path.join(arguments.scratch or scratch, name)
+            os.makedirs(work, exist_ok=True)
+            results[name] = measure(arguments, sample, work)
+            if not arguments.scratch:
+                shutil.rmtree(work)
+            print("\n".join(table({name: results[name]}).splitlines()[2:]), flush=True)
+            with open(arguments.out, "w") as file:
+                json.dump(results, file, indent=1)
     if arguments.table:
         with open(arguments.table, "w") as file:
             file.write(table(results) + "\n")

@@ -24,7 +24,7 @@ import tempfile
 
 import numpy
 
-from accuracy import find_sets, generated_sets, markdown, random_rotation, turn_off, write_whole
+from accuracy import chosen_sets, markdown, random_rotation, turn_off, write_whole
 from consistency import Shape, agreement, segment
 from examples import add_set_arguments, score
 
@@ -111,11 +111,7 @@ def main():
     parser.add_argument("--cases", nargs="+", choices=CASES, default=list(CASES))
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
-        if arguments.generated:
-            shapes, *families = arguments.generated
-            sets = generated_sets(arguments.coseg, int(shapes), families, scratch)
-        else:
-            sets = find_sets(arguments.data, arguments.sets)
+        sets = chosen_sets(arguments, scratch)
         rows = [["set", "K", "whole"] + [word for case in arguments.cases for word in (case, "agree")]]
         for name, sample in sets.items():
             rows.append([name, str(sample["parts"])] + measure(arguments, sample))
