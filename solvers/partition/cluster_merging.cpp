@@ -30,10 +30,10 @@ double gain_of_union(const ClusterSums& sums, int a, int b) {
 
 Partial all_alone(const ClusterSums& clusters) {
     const int count = clusters.count();
-    Partial partial{clusters, std::vector<int>(at(count)), 0.0, Eigen::MatrixXd::Zero(count, count)};
+    Partial partial{clusters, std::vector<int>(at(count)), value_of_parts(clusters),
+                    Eigen::MatrixXd::Zero(count, count)};
     std::iota(partial.group.begin(), partial.group.end(), 0);
     for (int a = 0; a < count; ++a) {
-        partial.value += value_of_part(clusters, std::array{a});
         for (int b = a + 1; b < count; ++b)
             partial.gain(a, b) = partial.gain(b, a) = gain_of_union(clusters, a, b);
     }
@@ -129,17 +129,15 @@ class ClusterMoves {
   private:
     void run() {
         for (int c = 0; c < clusters_.count(); ++c) alone_[at(c)] = value(std::array{c});
-        for (int p = 0; p < parts_; ++p) look_at(p);
+        std::vector<int> changed(at(parts_));
+        std::iota(changed.begin(), changed.end(), 0);
         for (int round = 0; round < most_rounds; ++round) {
+            look_at(changed);
             Move best = best_single();
             const Move exchange = best_exchange();
             if (exchange.gain > best.gain) best = exchange;
             if (best.cluster < 0) return;
-            const int from = part_[at(best.cluster)];
-            apply(best);
-            look_at(from);
-            look_at(best.to);
-            if (best.other >= 0) look_at(best.other);
+            changed = apply(best);
         }
     }
 
@@ -175,10 +173,22 @@ class ClusterMoves {
         return result;
     }
 
-    /// Finds all values that depend on the clusters of a part; those of other parts stay as they are.
-    void look_at(int part) {
-        const std::vector<int> all = members(part);
-        value_(part) = value(all);
+    /// Finds all values that depend on the clusters of these parts; those of other parts stay as they are.
+    void look_at(const std::vector<int>& changed) {
+        std::vector<char> is_changed(at(parts_), 0);
+        for (const int p : changed) {
+            is_changed[at(p)] = 1;
+            look_at_part(p);
+        }
+        for (int p = 0; p < parts_; ++p) {
+            for (int q = p + 1; q < parts_; ++q) {
+                if (is_changed[at(p)] != 0 || is_changed[at(q)] != 0) united_(p, q) = value_of_union(p, q);
+            }
+        }
+    }
+
+    void look_at_part(int part) {
+        value_(part) = value(members(part));
         for (int c = 0; c < clusters_.count(); ++c) {
             if (part_[at(c)] != part) {
                 with_(part, c) = value(members(part, -1, c));
@@ -187,15 +197,12 @@ class ClusterMoves {
             const std::vector<int> rest = members(part, c);
             left_(c) = rest.empty() ? -std::numeric_limits<double>::infinity() : value(rest) - value_(part);
         }
-        for (int other = 0; other < parts_; ++other) {
-            if (other != part)
-                united_(std::min(part, other), std::max(part, other)) = value_of_union(part, other);
-        }
     }
 
+    /// a < b.
     [[nodiscard]] double value_of_union(int a, int b) const {
-        std::vector<int> both = members(std::min(a, b));
-        for (const int c : members(std::max(a, b))) both.push_back(c);
+        std::vector<int> both = members(a);
+        for (const int c : members(b)) both.push_back(c);
         return value(both);
     }
 
@@ -226,13 +233,16 @@ class ClusterMoves {
         return best;
     }
 
-    void apply(const Move& move) {
-        if (move.other >= 0) {
-            std::replace(part_.begin(), part_.end(), move.other, move.to);
-            part_[at(move.cluster)] = move.other;
-        } else {
+    /// The parts whose clusters are others now.
+    std::vector<int> apply(const Move& move) {
+        const int from = part_[at(move.cluster)];
+        if (move.other < 0) {
             part_[at(move.cluster)] = move.to;
+            return {from, move.to};
         }
+        std::replace(part_.begin(), part_.end(), move.other, move.to);
+        part_[at(move.cluster)] = move.other;
+        return {from, move.to, move.other};
     }
 
     const ClusterSums& clusters_;
