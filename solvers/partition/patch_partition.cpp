@@ -58,19 +58,31 @@ struct Found {
 };
 
 /// Collective.
-Found found_alone(const Comm& comm, const PartitionEvidence& evidence, const CutOptions& options,
-                  std::vector<PartitionCandidate> clusterings) {
-    const PartitionObjective objective = partition_objective(evidence, options.choice);
-    const SearchTask task{evidence, objective, options.choice, options.parts};
+Found found_by_search(const Comm& comm, const SearchTask& task, std::vector<PartitionCandidate> clusterings) {
     Found found;
     found.candidates = search_partitions(comm, task, std::move(clusterings));
     found.chosen = ranked_candidates(found.candidates).front();
+    return found;
+}
+
+/// Where there are several starts, the best partition is improved. Collective.
+Found found_and_expanded(const Comm& comm, const SearchTask& task, const CutOptions& options,
+                         std::vector<PartitionCandidate> clusterings) {
+    Found found = found_by_search(comm, task, std::move(clusterings));
     PartitionCandidate& chosen = found.candidates[found.chosen];
     if (options.starts.size() > 1) {
         chosen = expanded(comm, task, std::move(chosen));
-        found.confidence = part_confidence(objective, {}, chosen.labels, options.parts);
+        found.confidence = part_confidence(task.objective, {}, chosen.labels, task.parts);
     }
     return found;
+}
+
+/// Collective.
+Found found_alone(const Comm& comm, const PartitionEvidence& evidence, const CutOptions& options,
+                  std::vector<PartitionCandidate> clusterings) {
+    const PartitionObjective objective = partition_objective(evidence, options.choice);
+    return found_and_expanded(comm, {evidence, objective, options.choice, options.parts}, options,
+                              std::move(clusterings));
 }
 
 /// The scores of the examples as a descriptor that a partition should explain, beside the others.
@@ -89,11 +101,7 @@ Found found_explaining(const Comm& comm, const PartitionEvidence& evidence, cons
     PartitionEvidence sought = evidence;
     sought.descriptors = descriptors;
     const PartitionObjective objective = partition_objective(sought, options.choice);
-    Found found;
-    found.candidates =
-        search_partitions(comm, {sought, objective, options.choice, options.parts}, std::move(clusterings));
-    found.chosen = ranked_candidates(found.candidates).front();
-    return found;
+    return found_by_search(comm, {sought, objective, options.choice, options.parts}, std::move(clusterings));
 }
 
 /// The evidence of the cut, and the frame of its positions.
@@ -117,9 +125,10 @@ Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvi
         told = regression->scores(said);
     });
     std::vector<int> best_labels = labels_of_best_scores(told);
-    Found alone = found_alone(comm, evidence, options, clusterings);
-    Found explaining = found_explaining(comm, evidence, told, options, std::move(clusterings));
+    Found explaining = found_explaining(comm, evidence, told, options, clusterings);
     const PartitionObjective objective = partition_objective(evidence, options.choice);
+    const SearchTask task{evidence, objective, options.choice, options.parts};
+    Found alone = found_and_expanded(comm, task, options, std::move(clusterings));
     BaseChoice base(objective, *input.examples, std::move(told), options.examples.scores);
     base.offer_parts(alone.candidates[alone.chosen].labels);
     Found& found = base.offer_parts(explaining.candidates[explaining.chosen].labels) ? explaining : alone;
@@ -130,8 +139,7 @@ Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvi
     agree(comm, [&] { scores = regression->scores(said); });
     CorrectedPartition corrected = corrected_partition(comm, objective, said, scores, options.examples);
     PartitionCandidate& chosen = found.candidates[found.chosen];
-    chosen = relabelled({evidence, objective, options.choice, options.parts}, std::move(chosen),
-                        std::move(corrected.parts));
+    chosen = relabelled(task, std::move(chosen), std::move(corrected.parts));
     found.confidence = std::move(corrected.confidence);
     return std::move(found);
 }
