@@ -185,4 +185,23 @@ Eigen::MatrixXf segment_histograms(const ToyCollection& toy) {
     return histograms;
 }
 
+FeatureMatrices segment_features(const ToyCollection& toy) {
+    return FeatureMatrices({Eigen::MatrixXd(segment_histograms(toy).cast<double>())});
+}
+
+std::vector<ChoiceDescriptor> segment_descriptors(const ToyCollection& toy) {
+    return {{segment_histograms(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
+}
+
+CutInput toy_input(const ToyCollection& toy, std::span<const ChoiceDescriptor> descriptors,
+                   const FeatureMatrices* features) {
+    return {.coefficients = toy.coefficients,
+            .neighbors_local = toy.neighbors,
+            .overlaps_local = toy.overlaps,
+            .mesh_of = toy.mesh_of,
+            .patch_area = toy.area,
+            .descriptors = descriptors,
+            .features = features};
+}
+
 }  // namespace coseg::testing_graphs

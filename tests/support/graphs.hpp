@@ -2,11 +2,14 @@
 // Graphs with known spectra and cuts, and small collections with known parts.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
+#include "solvers/partition/patch_partition.hpp"
 #include "solvers/subspace/coefficients.hpp"
+#include "src/histograms/feature_matrices.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg::testing_graphs {
@@ -54,5 +57,12 @@ ToyCollection toy_collection(const Comm& comm, int meshes, int parts, int patche
                              std::uint64_t seed);
 /// K x N: a descriptor that tells the segments apart, with some noise.
 Eigen::MatrixXf segment_histograms(const ToyCollection& toy);
+/// The same as features of patches.
+FeatureMatrices segment_features(const ToyCollection& toy);
+/// The same with what the descriptors of a run weigh together.
+std::vector<ChoiceDescriptor> segment_descriptors(const ToyCollection& toy);
+/// What is cut; it refers to the arguments.
+CutInput toy_input(const ToyCollection& toy, std::span<const ChoiceDescriptor> descriptors,
+                   const FeatureMatrices* features = nullptr);
 
 }  // namespace coseg::testing_graphs

@@ -10,8 +10,10 @@
 namespace coseg {
 namespace {
 
-using testing_graphs::segment_histograms;
+using testing_graphs::segment_descriptors;
+using testing_graphs::segment_features;
 using testing_graphs::toy_collection;
+using testing_graphs::toy_input;
 using testing_graphs::ToyCollection;
 
 constexpr int toy_meshes = 6;
@@ -27,17 +29,9 @@ struct Said {
 
     Said(const Comm& comm, int part_count)
         : toy(toy_collection(comm, toy_meshes, toy_segments, 6, 77)),
-          descriptors({{segment_histograms(toy), {.pooled = 1.0, .per_mesh = 4.8}}}),
-          features({Eigen::MatrixXd(descriptors[0].histograms.cast<double>())}),
-          parts(comm,
-                {.coefficients = toy.coefficients,
-                 .neighbors_local = toy.neighbors,
-                 .overlaps_local = toy.overlaps,
-                 .mesh_of = toy.mesh_of,
-                 .patch_area = toy.area,
-                 .descriptors = descriptors,
-                 .features = &features},
-                options(), {}),
+          descriptors(segment_descriptors(toy)),
+          features(segment_features(toy)),
+          parts(comm, toy_input(toy, descriptors, &features), options(), {}),
           said{toy.truth, Eigen::MatrixXd::Zero(part_count, toy.patches),
                Eigen::MatrixXi::Ones(part_count, toy_meshes)} {}
 

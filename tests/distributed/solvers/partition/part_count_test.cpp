@@ -12,6 +12,7 @@ namespace {
 using testing_graphs::same_partition;
 using testing_graphs::segment_histograms;
 using testing_graphs::toy_collection;
+using testing_graphs::toy_input;
 using testing_graphs::ToyCollection;
 
 CountedParts counted(const Comm& comm, int parts, std::int64_t one_rank_entries = 1'000'000) {
@@ -22,8 +23,7 @@ CountedParts counted(const Comm& comm, int parts, std::int64_t one_rank_entries 
     options.starts = pooled_starts(2);
     options.spectral.mesh_balance = 0.3;
     options.one_rank_entries = one_rank_entries;
-    return count_parts(
-        comm, {toy.coefficients, toy.neighbors, toy.overlaps, toy.mesh_of, toy.area, descriptors}, options);
+    return count_parts(comm, toy_input(toy, descriptors), options);
 }
 
 class PartCount : public testing::TestWithParam<int> {};

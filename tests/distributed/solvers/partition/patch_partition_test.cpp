@@ -16,16 +16,15 @@ namespace coseg {
 namespace {
 
 using testing_graphs::same_partition;
-using testing_graphs::segment_histograms;
+using testing_graphs::segment_descriptors;
+using testing_graphs::segment_features;
 using testing_graphs::toy_collection;
+using testing_graphs::toy_input;
 using testing_graphs::ToyCollection;
 
 CutResult cut(const Comm& comm, const ToyCollection& toy, const CutOptions& options) {
-    // What the descriptors of a run weigh together.
-    const std::vector<ChoiceDescriptor> descriptors = {
-        {segment_histograms(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
-    return partition_patches(
-        comm, {toy.coefficients, toy.neighbors, toy.overlaps, toy.mesh_of, toy.area, descriptors}, options);
+    const std::vector<ChoiceDescriptor> descriptors = segment_descriptors(toy);
+    return partition_patches(comm, toy_input(toy, descriptors), options);
 }
 
 CutOptions pooled(int parts) {
@@ -172,21 +171,13 @@ ExampleLabels labels_of_the_first_mesh(const ToyCollection& toy, int parts) {
 
 CutResult cut_by_example(const Comm& comm, const ToyCollection& toy, int parts, const ExampleLabels& examples,
                          std::int64_t one_rank_entries = 1'000'000) {
-    const std::vector<ChoiceDescriptor> descriptors = {
-        {segment_histograms(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
-    const FeatureMatrices features({Eigen::MatrixXd(descriptors[0].histograms.cast<double>())});
+    const std::vector<ChoiceDescriptor> descriptors = segment_descriptors(toy);
+    const FeatureMatrices features = segment_features(toy);
+    CutInput input = toy_input(toy, descriptors, &features);
+    input.examples = &examples;
     CutOptions options = pooled(parts);
     options.one_rank_entries = one_rank_entries;
-    return partition_patches(comm,
-                             {.coefficients = toy.coefficients,
-                              .neighbors_local = toy.neighbors,
-                              .overlaps_local = toy.overlaps,
-                              .mesh_of = toy.mesh_of,
-                              .patch_area = toy.area,
-                              .descriptors = descriptors,
-                              .examples = &examples,
-                              .features = &features},
-                             options);
+    return partition_patches(comm, input, options);
 }
 
 TEST_P(CoSegmentationCut, GivesAllMeshesTheLabelsOfTheExample) {
