@@ -22,7 +22,7 @@ from links import meshes_and_truth
 
 
 def mesh_names(folder):
-    return sorted(name for name in os.listdir(folder) if name.lower().endswith((".off", ".obj", ".ply", ".stl", ".glb", ".gltf")))
+    return sorted(name for name in os.listdir(folder) if name.lower().endswith((".off", ".obj", ".ply", ".stl", ".glb", ".gltf", ".vtp")))
 
 
 def timed(command):

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-MESHES = (".off", ".obj", ".ply", ".stl", ".glb", ".gltf")
+MESHES = (".off", ".obj", ".ply", ".stl", ".glb", ".gltf", ".vtp")
 
 
 def rank_counts(largest):

@@ -16,7 +16,7 @@ struct Beginning {
 };
 
 constexpr std::string_view unpack = "; unpack it and give the meshes inside";
-constexpr std::string_view convert = "; convert it to OFF, OBJ, PLY, STL or GLB";
+constexpr std::string_view convert = "; convert it to OFF, OBJ, PLY, STL, GLB or VTP";
 
 constexpr std::array packed{Beginning{"pk\x03\x04", "a ZIP archive"},
                             Beginning{"\x1f\x8b", "a gzip archive"},
@@ -82,6 +82,9 @@ std::optional<std::string> other_gltf(std::string_view bytes, std::string_view b
     return std::nullopt;
 }
 
+/// Every XML file of VTK has a tag of this name, behind the declaration of XML if there is one.
+bool is_vtk_xml(std::string_view beginning) { return beginning.find("<vtkfile") != std::string_view::npos; }
+
 std::optional<std::string> not_a_mesh(std::string_view bytes, std::string_view beginning) {
     if (beginning.starts_with("version https://git-lfs"))
         return "a Git LFS pointer, not the mesh itself; fetch the mesh with 'git lfs pull'";
@@ -103,6 +106,10 @@ std::optional<std::string> not_a_mesh(std::string_view bytes, std::string_view b
 std::optional<std::string> foreign_content(std::string_view bytes, std::string_view format) {
     const std::size_t first = bytes.find_first_not_of("\xef\xbb\xbf \t\r\n");
     const std::string beginning = lower_case_beginning(bytes.substr(std::min(first, bytes.size())));
+    if (beginning.starts_with("<") && is_vtk_xml(beginning)) {
+        if (format == "VTK") return std::nullopt;
+        return "a VTK file in XML by its content; if it is PolyData, give it the suffix .vtp";
+    }
     if (std::optional<std::string> what = not_a_mesh(bytes, beginning)) return what;
     if (std::optional<std::string> what = named(beginning, packed, unpack)) return what;
     if (std::optional<std::string> what = named(beginning, other_formats, convert)) return what;

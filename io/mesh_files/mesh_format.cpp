@@ -12,6 +12,7 @@
 #include "io/mesh_files/off_format.hpp"
 #include "io/mesh_files/ply_format.hpp"
 #include "io/mesh_files/stl_format.hpp"
+#include "io/mesh_files/vtk_reader.hpp"
 #include "io/mesh_files/vtk_writer.hpp"
 #include "src/base/error.hpp"
 
@@ -37,6 +38,7 @@ constexpr std::array<MeshFormat, 7> formats{{
     {.name = "glTF", .suffix = ".gltf", .read = read_gltf, .gather = with_buffer_files},
     {.name = "VTK",
      .suffix = ".vtp",
+     .read = read_vtp,
      .write = write_vtp,
      .keeps_values = true,
      .write_collection = write_vtm,

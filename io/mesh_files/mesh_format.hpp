@@ -69,10 +69,10 @@ std::vector<std::string> writable_formats();
 /// The row of such a name.
 const MeshFormat& writable_format(const std::string& name);
 
-/// "OFF, OBJ, PLY, STL, GLB, glTF": the rows that can be read.
+/// "OFF, OBJ, PLY, STL, GLB, glTF, VTK": the rows that can be read.
 std::string readable_formats();
 
-/// ".off, .obj, .ply, .stl, .glb WORD .gltf".
+/// ".off, .obj, .ply, .stl, .glb, .gltf WORD .vtp".
 std::string readable_suffixes(std::string_view word);
 
 }  // namespace coseg

@@ -15,7 +15,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../../jobs/build_steps.sh"
 seconds=${1:-60}
 shift $(($# > 0 ? 1 : 0))
 suffixes=("$@")
-((${#suffixes[@]} > 0)) || suffixes=(.off .obj .ply .stl .glb .gltf .seg .txt .report .corrections .constraints .alignment .problem .npy .features .face_features .records)
+((${#suffixes[@]} > 0)) || suffixes=(.off .obj .ply .stl .glb .gltf .vtp .seg .txt .report .corrections .constraints .alignment .problem .npy .features .face_features .records)
 program=${COSEG_FUZZER:-$root/build-fuzzers/bin/reader_fuzzer}
 if [[ -z ${COSEG_FUZZER:-} ]]; then
     build=$root/build-fuzzers

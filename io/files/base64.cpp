@@ -1,4 +1,4 @@
-#include "io/gltf/base64.hpp"
+#include "io/files/base64.hpp"
 
 #include <cstdint>
 
