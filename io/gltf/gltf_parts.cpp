@@ -268,6 +268,13 @@ class GltfPartition {
         return {asset_.nodes[at(draw.node)].skin, has_targets ? draw.mesh : -1, matrix};
     }
 
+    /// Places are numbered as the file comes to them, so that triangles keep their order.
+    int number_of(const Place& place) {
+        const auto [found, is_new] = place_numbers_.try_emplace(place, static_cast<int>(places_.size()));
+        if (is_new) places_.push_back(place);
+        return found->second;
+    }
+
     void share_triangles() {
         primitives_.resize(objects_.objects.size());
         std::size_t face = 0;
@@ -279,7 +286,7 @@ class GltfPartition {
                 if (object >= 0)
                     corners[object].insert(corners[object].end(), triangle.begin(), triangle.end());
             }
-            const Place place = place_of(draw);
+            const int place = number_of(place_of(draw));
             for (const auto& [object, indices] : corners)
                 primitives_[at(object)][place].push_back(
                     primitive_of(draw, objects_.objects[at(object)].part, indices));
@@ -327,7 +334,7 @@ class GltfPartition {
         std::vector<std::vector<PlacedMesh>> meshes(objects_.objects.size());
         for (std::size_t k = 0; k < meshes.size(); ++k) {
             for (auto& [place, primitives] : primitives_[k])
-                meshes[k].push_back(placed_mesh(objects_.objects[k], place, primitives));
+                meshes[k].push_back(placed_mesh(objects_.objects[k], places_[at(place)], primitives));
         }
         OrderedJson& json = document_.json();
         const std::vector<int> top = add_object_nodes(document_, objects_, meshes);
@@ -347,8 +354,10 @@ class GltfPartition {
     GltfDocument document_;
     OrderedJson old_meshes_;
     int variant_ = 0;
-    std::map<int, int> materials_;                                       ///< by part
-    std::vector<std::map<Place, std::vector<OrderedJson>>> primitives_;  ///< by object
+    std::map<int, int> materials_;  ///< by part
+    std::map<Place, int> place_numbers_;
+    std::vector<Place> places_;
+    std::vector<std::map<int, std::vector<OrderedJson>>> primitives_;  ///< by object and place
 };
 
 int add_positions(GltfDocument& document, const std::vector<Eigen::Vector3f>& vertices) {

@@ -38,7 +38,7 @@ std::string glb_of_surface(const GltfSurface& surface, const GltfObjects& object
 /// The glTF file `bytes` (from mesh_file_bytes, read at `source`) again as GLB, its triangles shared out
 /// among objects:
 /// - Every object is one node at the top of the scene; where its triangles lie at nodes that stand in
-///   different places, it has a child for each place.
+///   different places, it has a child for each place, in the order in which the file comes to them.
 /// - Attributes, materials, textures, images, animations, cameras, extensions and extras stay as they are,
 ///   and the bytes of all buffers too; only indices are new. Files of images become part of the buffer,
 ///   unless they cannot be read.
