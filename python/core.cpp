@@ -339,6 +339,7 @@ PYBIND11_MODULE(_core, module) {
     add_arguments(module);
     module.def("version", &coseg::version);
     module.def("option_names", &coseg::option_names);
+    module.def("option_kinds", &coseg::option_kinds);
     module.def("mesh_files", [](const std::vector<std::string>& arguments) {
         return texts_of(coseg::mesh_files(arguments));
     });

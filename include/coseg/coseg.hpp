@@ -107,7 +107,7 @@ struct Progress {
 
 /// How a function runs. Nothing that it computes depends on it.
 struct Call {
-    /// The address of an MPI_Comm; null: this process alone.
+    /// The address of an MPI_Comm of one group, which is not MPI_COMM_NULL; null: this process alone.
     const void* communicator = nullptr;
     /// Called on every rank, in the thread of the caller. What it throws ends the call and is thrown by it:
     /// at once where one process works, at the end of the call where several do.
@@ -123,6 +123,10 @@ COSEG_VISIBLE void start();
 
 /// The names of the options that the functions below take.
 COSEG_VISIBLE std::vector<std::string> option_names();
+
+/// What each of these options takes, in the same order: "on or off", "whole number", "number", "numbers" (joined
+/// by commas) or "text", which may be a number too.
+COSEG_VISIBLE std::vector<std::string> option_kinds();
 
 // ---- Segmentation ----
 

@@ -58,6 +58,19 @@ void start_petsc() {
     std::atexit(end_petsc);
 }
 
+/// MPI ends the process where it is handed what is no communicator of a group.
+MPI_Comm communicator_of(const Call& call) {
+    if (call.communicator == nullptr) return MPI_COMM_SELF;
+    const MPI_Comm given = *static_cast<const MPI_Comm*>(call.communicator);
+    int is_between_groups = 0;
+    if (given != MPI_COMM_NULL) MPI_Comm_test_inter(given, &is_between_groups);
+    if (given == MPI_COMM_NULL || is_between_groups != 0)
+        throw Error(
+            ExitCode::usage,
+            "the communicator is MPI_COMM_NULL or joins two groups; give one of this process's group");
+    return given;
+}
+
 }  // namespace
 
 LibraryCall::Turn::Turn() {
@@ -70,8 +83,7 @@ LibraryCall::Turn::~Turn() { at_work.clear(); }
 
 LibraryCall::LibraryCall(const Call& call) {
     start_mpi();
-    comm_.emplace(call.communicator != nullptr ? *static_cast<const MPI_Comm*>(call.communicator)
-                                               : MPI_COMM_SELF);
+    comm_.emplace(communicator_of(call));
     blas_threads_before_ = blas_threads();
     start_petsc();
     set_blas_threads(1);

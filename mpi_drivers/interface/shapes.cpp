@@ -143,6 +143,14 @@ std::vector<std::string> interface_1::option_names() {
     return without_call([] { return coseg::named_option_names(); });
 }
 
+std::vector<std::string> interface_1::option_kinds() {
+    return without_call([] {
+        std::vector<std::string> words;
+        for (const OptionKind kind : named_option_kinds()) words.emplace_back(to_string(kind));
+        return words;
+    });
+}
+
 Score interface_1::score(std::span<const Shape> shapes, const std::vector<std::vector<int>>& labels,
                          const std::vector<std::vector<int>>& truth) {
     return without_call([&] { return scored(shapes, labels, truth); });

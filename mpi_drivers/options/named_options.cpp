@@ -31,12 +31,14 @@ void refuse_unknown(const std::vector<NamedOption>& given, const std::vector<std
     }
 }
 
-std::vector<std::string> names_in(const RunOptionTable& table) {
-    std::vector<std::string> names;
+/// The member of every option of the table that has a name here.
+template <class T>
+std::vector<T> named_in(const RunOptionTable& table, T OptionValue::*member) {
+    std::vector<T> members;
     for (const OptionValue& option : table.values()) {
-        if (!is_of_command_line(option.key)) names.push_back(option.key);
+        if (!is_of_command_line(option.key)) members.push_back(option.*member);
     }
-    return names;
+    return members;
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ RunOptions options_by_name(const std::vector<NamedOption>& given) {
     CLI::App app;
     RunOptions options;
     const RunOptionTable table(app, options);
-    refuse_unknown(given, names_in(table));
+    refuse_unknown(given, named_in(table, &OptionValue::key));
     std::vector<std::string> words = {"--parts=2", "--out=-", "-"};  // required, and given in another way
     for (const auto& [name, value] : given) words.push_back("--" + name + "=" + value);
     std::reverse(words.begin(), words.end());  // as CLI11 takes them
@@ -62,7 +64,13 @@ RunOptions options_by_name(const std::vector<NamedOption>& given) {
 std::vector<std::string> named_option_names() {
     CLI::App app;
     RunOptions options;
-    return names_in(RunOptionTable(app, options));
+    return named_in(RunOptionTable(app, options), &OptionValue::key);
+}
+
+std::vector<OptionKind> named_option_kinds() {
+    CLI::App app;
+    RunOptions options;
+    return named_in(RunOptionTable(app, options), &OptionValue::kind);
 }
 
 }  // namespace coseg

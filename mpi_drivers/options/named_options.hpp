@@ -26,4 +26,7 @@ std::vector<OptionValue> option_values(RunOptions options);
 /// The names that options_by_name takes.
 std::vector<std::string> named_option_names();
 
+/// What each of them takes, in the same order.
+std::vector<OptionKind> named_option_kinds();
+
 }  // namespace coseg

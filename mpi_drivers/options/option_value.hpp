@@ -30,10 +30,21 @@ constexpr std::array<EnumName<Affects>, 6> enum_names(Affects /*type*/) {
              {Affects::output, "output"}}};
 }
 
+/// What an option takes. A text may also be a number, as of --links.
+enum class OptionKind { on_or_off, whole_number, number, numbers, text };
+constexpr std::array<EnumName<OptionKind>, 5> enum_names(OptionKind /*type*/) {
+    return {{{OptionKind::on_or_off, "on or off"},
+             {OptionKind::whole_number, "whole number"},
+             {OptionKind::number, "number"},
+             {OptionKind::numbers, "numbers"},
+             {OptionKind::text, "text"}}};
+}
+
 struct OptionValue {
     std::string key;  ///< the option's name without its dashes
     std::string value;
     Affects affects = Affects::nothing;
+    OptionKind kind = OptionKind::text;
 };
 
 /// The options that affect a stage up to `last`, as lines of KEY=VALUE. The key of that stage's outcome in a

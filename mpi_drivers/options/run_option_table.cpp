@@ -39,6 +39,15 @@ std::string printed(const T& value) {
     return text.str();
 }
 
+template <class T>
+constexpr OptionKind kind_of() {
+    if constexpr (std::is_same_v<T, bool>) return OptionKind::on_or_off;
+    if constexpr (std::is_integral_v<T>) return OptionKind::whole_number;
+    if constexpr (std::is_floating_point_v<T>) return OptionKind::number;
+    if constexpr (std::is_same_v<T, std::vector<double>>) return OptionKind::numbers;
+    return OptionKind::text;
+}
+
 /// CLI11 takes the nearest number of 64 bits for one beyond them.
 const CLI::Validator unsigned_number(
     [](std::string& text) {
@@ -93,13 +102,13 @@ const CLI::Validator subset_size(
 
 }  // namespace
 
-void RunOptionTable::remember(const Row& row, std::function<std::string()> print) {
-    printers_.push_back({row.key, row.affects, std::move(print)});
+void RunOptionTable::remember(const Row& row, OptionKind kind, std::function<std::string()> print) {
+    printers_.push_back({row.key, row.affects, kind, std::move(print)});
 }
 
 template <class T>
 CLI::Option* RunOptionTable::add(const Row& row, T& variable) {
-    remember(row, [&variable] { return printed(variable); });
+    remember(row, kind_of<T>(), [&variable] { return printed(variable); });
     const std::string name = "--" + row.key;
     if constexpr (NamedEnum<T>) {
         return add_enum_option(app_, name, variable, row.help)->group(row.group);
@@ -113,7 +122,7 @@ CLI::Option* RunOptionTable::add(const Row& row, T& variable) {
 }
 
 CLI::Option* RunOptionTable::add_switch(const Row& row, bool& variable) {
-    remember(row, [&variable] { return printed(variable); });
+    remember(row, OptionKind::on_or_off, [&variable] { return printed(variable); });
     const std::string standard = variable ? " (on by default)" : " (off by default)";
     return app_.add_flag("--" + row.key + ",!--no-" + row.key, variable, row.help + standard)
         ->group(row.group);
@@ -135,7 +144,8 @@ RunOptionTable::RunOptionTable(CLI::App& app, RunOptions& options, OptionSet set
 /// The preset is the first option because CLI11 runs callbacks in the order of definition: what else is given
 /// overrides it.
 void RunOptionTable::add_preset() {
-    remember({"preset", Affects::nothing, in_out_group, ""}, [this] { return options_.preset; });
+    remember({"preset", Affects::nothing, in_out_group, ""}, OptionKind::text,
+             [this] { return options_.preset; });
     app_.add_option_function<std::string>(
             "--preset", [this](const std::string& preset) { options_ = preset_options(preset); },
             "default; paper: its literal text; or a baseline: single:FEATURE, independent, concatenated "
@@ -146,7 +156,7 @@ void RunOptionTable::add_preset() {
 }
 
 void RunOptionTable::add_seed() {
-    remember({"seed", Affects::describe, in_out_group, ""},
+    remember({"seed", Affects::describe, in_out_group, ""}, OptionKind::whole_number,
              [this] { return printed(options_.description.seed); });
     app_.add_option_function<std::uint64_t>(
             "--seed", [this](const std::uint64_t& seed) { set_seed(options_, seed); },
@@ -213,7 +223,8 @@ void RunOptionTable::add_parts() {
         "parts", Affects::cut, in_out_group,
         "Number of parts K that the shapes are cut into, 1 to 1000, or auto: 2 to 12, found from the "
         "shapes; required but with --examples, which say it"};
-    remember(row, [&parts] { return parts == found_parts ? auto_word : std::to_string(parts); });
+    remember(row, OptionKind::text,
+             [&parts] { return parts == found_parts ? auto_word : std::to_string(parts); });
     const auto take = [&parts](const std::string& text) {
         if (text == auto_word)
             parts = found_parts;
@@ -277,7 +288,7 @@ void RunOptionTable::add_state(OptionSet set) {
 void RunOptionTable::add_patches() {
     DescriptionOptions& description = options_.description;
     const Row weld{"weld", Affects::describe, patches_group, weld_help};
-    remember(weld, [&description] { return printed(description.weld); });
+    remember(weld, OptionKind::text, [&description] { return printed(description.weld); });
     add_weld_option(app_, description.weld)->group(patches_group);
     add({"remesh", Affects::describe, patches_group,
          "Even triangles inside the program: always, never, or auto: for meshes whose triangles are too long "
@@ -340,7 +351,7 @@ void RunOptionTable::add_feature_weights() {
                   "Weights of " + phrases +
                       "; 0 leaves one out, those at the end that are not given keep their default"};
     std::vector<double>& weights = options_.features.weights;
-    remember(row, [&weights] { return printed(weights); });
+    remember(row, OptionKind::numbers, [&weights] { return printed(weights); });
     const std::vector<double> standard = default_descriptor_weights();
     const auto take = [&weights, standard](const std::string& text) {
         std::vector<double> given;
@@ -384,7 +395,7 @@ void RunOptionTable::add_problem() {
     const Row links{"links", Affects::solve, optimise_group,
                     "Mesh scope: other meshes in which a patch looks for matches: all, a number (a seeded "
                     "sample of meshes), or auto: all in small collections"};
-    remember(links, [&optimise] { return printed(optimise.links); });
+    remember(links, OptionKind::text, [&optimise] { return printed(optimise.links); });
     app_.add_option_function<std::string>(
             "--links", [&optimise](const std::string& text) { optimise.links = parsed_links(text).value(); },
             links.help)
@@ -484,7 +495,7 @@ void RunOptionTable::add_choice() {
 
 std::vector<OptionValue> RunOptionTable::values() const {
     std::vector<OptionValue> values;
-    for (const Printer& row : printers_) values.push_back({row.key, row.print(), row.affects});
+    for (const Printer& row : printers_) values.push_back({row.key, row.print(), row.affects, row.kind});
     return values;
 }
 

@@ -52,11 +52,12 @@ class RunOptionTable {
     template <class T>
     CLI::Option* add(const Row& row, T& variable);
     CLI::Option* add_switch(const Row& row, bool& variable);
-    void remember(const Row& row, std::function<std::string()> print);
+    void remember(const Row& row, OptionKind kind, std::function<std::string()> print);
 
     struct Printer {
         std::string key;
         Affects affects;
+        OptionKind kind;
         std::function<std::string()> print;
     };
     CLI::App& app_;

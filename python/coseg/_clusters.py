@@ -11,7 +11,8 @@ import numpy as np
 from . import _core
 from ._errors import InputError, UsageError, translated
 from ._segmentation import Progress
-from ._shapes import given_communicator, given_whole_number
+from ._shapes import (given_communicator, given_number, given_progress, given_switch, given_text,
+                      given_whole_number)
 
 
 @dataclasses.dataclass
@@ -47,6 +48,8 @@ def _matrices(data: Any) -> List[np.ndarray]:
     views = data if isinstance(data, (list, tuple)) and len(data) and np.ndim(data[0]) == 2 else [data]
     matrices = []
     for number, view in enumerate(views, 1):
+        if np.ma.is_masked(view):
+            raise InputError(f"feature {number}: values are masked; leave the items out, or give values")
         matrix = np.asarray(view)
         if matrix.ndim != 2 or 0 in matrix.shape or matrix.dtype.kind not in "fiub":
             raise InputError(f"feature {number}: give an array of N items x d numbers, not {matrix.dtype} of the shape "
@@ -55,6 +58,17 @@ def _matrices(data: Any) -> List[np.ndarray]:
             raise InputError(f"feature {number} has {len(matrix)} items, but feature 1 has {len(views[0])}")
         matrices.append(np.ascontiguousarray(matrix, dtype=np.float64))
     return matrices
+
+
+def _numbers_of_groups(groups: Any) -> List[int]:
+    """0, 1, ... for equal ones; a number that is none, which equals nothing, belongs to no group."""
+    try:
+        given = np.asarray(groups)
+        if given.ndim != 1 or (given.dtype.kind in "fc" and not np.isfinite(given).all()):
+            raise ValueError(f"{given.dtype} of the shape {given.shape}")
+        return np.unique(given, return_inverse=True)[1].astype(np.intc).tolist()
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"groups: give one for each item, finite and comparable with each other ({error})") from None
 
 
 def cluster(features: Union[Any, Sequence[Any]], parts: int, *, groups: Optional[Any] = None,
@@ -81,17 +95,22 @@ def cluster(features: Union[Any, Sequence[Any]], parts: int, *, groups: Optional
     settings = _core.ClusterSettings()
     settings.parts = given_whole_number("parts", parts)
     if groups is not None:
-        settings.groups = np.unique(np.asarray(groups), return_inverse=True)[1].astype(np.intc).tolist()
-    for name, value in (("unit_items", bool(unit_items)), ("alpha", alpha), ("beta", beta), ("lambda_", lambda_),
-                        ("variant", variant), ("scope", scope), ("affinity", affinity), ("links", links),
-                        ("seed", seed), ("gap", gap), ("max_iterations", max_iterations),
+        settings.groups = _numbers_of_groups(groups)
+    given = {"unit_items": given_switch("unit_items", unit_items)}
+    for name, value in (("alpha", alpha), ("beta", beta), ("lambda_", lambda_), ("gap", gap),
                         ("max_seconds", max_seconds)):
+        given[name] = given_number(name, value)
+    for name, value in (("links", links), ("seed", seed), ("max_iterations", max_iterations)):
+        given[name] = given_whole_number(name, value)
+    for name, value in (("variant", variant), ("scope", scope), ("affinity", affinity)):
+        given[name] = given_text(name, value)
+    for name, value in given.items():
         try:
             setattr(settings, name, value)
         except TypeError:
-            raise UsageError(f"{name}: {value!r} is of a type that cannot be used") from None
+            raise UsageError(f"{name}: {value!r} is out of range") from None
     with translated():
-        raw = _core.cluster(matrices, settings, given_communicator(comm), progress)
+        raw = _core.cluster(matrices, settings, given_communicator(comm), given_progress(progress))
     return Clusters(labels=raw["labels"], certificate=raw["certificate"], report=json.loads(raw["report"]),
                     _coefficients=raw["coefficients"], _affinity=raw["affinity"])
 

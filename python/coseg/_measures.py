@@ -10,7 +10,8 @@ import numpy as np
 from . import _core
 from ._errors import translated
 from ._segmentation import Progress, Result
-from ._shapes import MeshesLike, given_communicator, given_labels, given_options, given_shapes
+from ._shapes import (MeshesLike, given_communicator, given_labels, given_options, given_progress,
+                      given_shapes)
 
 
 @dataclasses.dataclass
@@ -38,7 +39,7 @@ def describe(meshes: MeshesLike, *, names: Optional[Sequence[str]] = None, comm:
     """
     shapes = given_shapes(meshes, names)
     with translated():
-        rows = _core.describe(shapes, given_options(options), given_communicator(comm), progress)
+        rows = _core.describe(shapes, given_options(options), given_communicator(comm), given_progress(progress))
     return [Description(*row) for row in rows]
 
 

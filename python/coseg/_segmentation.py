@@ -12,8 +12,8 @@ import numpy as np
 from . import _core
 from ._alignment import Alignment, alignment_of
 from ._errors import InputError, UsageError, translated
-from ._shapes import (MeshesLike, given_communicator, given_options, given_path, given_shapes,
-                      given_whole_number, path_bytes)
+from ._shapes import (MeshesLike, given_communicator, given_options, given_path, given_progress, given_shapes,
+                      given_switch, given_whole_number, path_bytes)
 
 #: Called as progress(stage, done, total) whenever a stage begins (0, 0), gets further, and ends (1, 1). It is
 #: called on every rank. What it raises ends the call.
@@ -157,17 +157,11 @@ def _number_of_parts(value: Any) -> int:
     return parts
 
 
-def _given_progress(progress: Any) -> Any:
-    if progress is not None and not callable(progress):
-        raise UsageError(f"progress: {progress!r} is no function")
-    return progress
-
-
 def _arguments(strict: bool, out: Any, replace: bool, state: Any) -> Any:
     arguments = _core.SegmentArguments()
-    arguments.strict = bool(strict)
+    arguments.strict = given_switch("strict", strict)
     arguments.folder = given_path(out)
-    arguments.replace = bool(replace)
+    arguments.replace = given_switch("replace", replace)
     arguments.state = given_path(state)
     return arguments
 
@@ -206,10 +200,10 @@ def segment(meshes: MeshesLike, parts: Union[int, str], *, names: Optional[Seque
     arguments = _arguments(strict, out, replace, state)
     arguments.parts = _number_of_parts(parts)
     arguments.options = given_options(options)
-    arguments.keep_model = bool(keep_model)
+    arguments.keep_model = given_switch("keep_model", keep_model)
     shapes = given_shapes(meshes, names)
     with translated():
-        raw = _core.segment(shapes, arguments, given_communicator(comm), _given_progress(progress))
+        raw = _core.segment(shapes, arguments, given_communicator(comm), given_progress(progress))
     return _result(raw, None if out is None else os.fsdecode(out))
 
 
@@ -238,5 +232,5 @@ def assign(meshes: MeshesLike, to: Union[Result, str, "os.PathLike[str]"], *,
         if model is None:
             model = _core.load_model(to.folder if isinstance(to, Result) else given_path(to), communicator)
         raw = _core.assign(shapes, model, _arguments(strict, out, replace, state), communicator,
-                           _given_progress(progress))
+                           given_progress(progress))
     return _result(raw, None if out is None else os.fsdecode(out))

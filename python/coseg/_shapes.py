@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import functools
+import math
+import numbers
+import operator
 import os
 from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Union
 
@@ -87,6 +91,8 @@ def _polygons(shape: str, given: Any, vertex_count: int) -> Tuple[np.ndarray, np
 
 
 def _faces(shape: str, given: Any, vertex_count: int) -> Tuple[np.ndarray, np.ndarray]:
+    if np.ma.is_masked(given):
+        raise InputError(f"{shape}: faces are masked; leave them out")
     faces = given if isinstance(given, np.ndarray) else None
     if faces is None:
         try:
@@ -147,27 +153,92 @@ def given_shapes(meshes: MeshesLike, names: Optional[Sequence[str]] = None) -> l
 
 
 def given_whole_number(what: str, value: Any) -> int:
-    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
-        raise UsageError(f"{what}: {value!r} is no whole number")
-    return value.__index__()
+    try:
+        if isinstance(value, (bool, np.bool_)) or np.ndim(value) != 0:
+            raise TypeError
+        return operator.index(value)
+    except (TypeError, ValueError):
+        raise UsageError(f"{what}: {value!r} is no whole number") from None
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, np.ndarray):
+        return value.ndim == 0 and value.dtype.kind in "fiu"
+    return isinstance(value, numbers.Real) and not isinstance(value, (bool, np.bool_))
+
+
+def given_number(what: str, value: Any) -> float:
+    if not _is_number(value):
+        raise UsageError(f"{what}: {value!r} is no number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise UsageError(f"{what}: {value!r} is not finite; give a finite number")
+    return number
+
+
+def given_switch(what: str, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise UsageError(f"{what}: {value!r} is neither True nor False")
+    return bool(value)
+
+
+def given_text(what: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise UsageError(f"{what}: {value!r} is no text")
+    return value
+
+
+def given_progress(progress: Any) -> Any:
+    if progress is not None and not callable(progress):
+        raise UsageError(f"progress: {progress!r} is no function")
+    return progress
+
+
+def _number_text(what: str, value: Any) -> str:
+    number = given_number(what, value)
+    return str(int(value)) if isinstance(value, numbers.Integral) else repr(number)
+
+
+def _numbers_text(what: str, value: Any) -> str:
+    if not isinstance(value, (list, tuple)) and not (isinstance(value, np.ndarray) and value.ndim):
+        return _number_text(what, value)
+    if len(value) == 0:
+        raise UsageError(f"{what}: {value!r} is no list of numbers")
+    return ",".join(_number_text(what, one) for one in value)
+
+
+def _word_text(what: str, value: Any) -> Any:
+    """Texts, paths, and numbers where the option may be one, as links=8."""
+    if isinstance(value, (str, os.PathLike)):
+        return os.fsencode(value)
+    return _number_text(what, value) if _is_number(value) else given_text(what, value)
+
+
+#: By what coseg::option_kinds says of an option.
+_TEXT_OF_KIND = {"on or off": lambda what, value: "true" if given_switch(what, value) else "false",
+                 "whole number": lambda what, value: str(given_whole_number(what, value)),
+                 "number": _number_text, "numbers": _numbers_text, "text": _word_text}
+
+
+@functools.lru_cache(maxsize=None)
+def _option_kinds() -> Mapping[str, str]:
+    return dict(zip(_core.option_names(), _core.option_kinds()))
 
 
 def given_options(options: Mapping[str, Any]) -> list:
     """[(name, text)]: geodesic_samples=200 is the option --geodesic-samples 200."""
-    return [(name.rstrip("_").replace("_", "-"), _option_text(value)) for name, value in options.items()
-            if value is not None]
-
-
-def _option_text(value: Any) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, np.ndarray):
-        return _option_text(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return ",".join(_option_text(one) for one in value)
-    return str(value)
+    given = []
+    for name, value in options.items():
+        option = name.rstrip("_").replace("_", "-")
+        kind = _option_kinds().get(option)
+        if kind is None:
+            given.append((option, ""))  # which the extension refuses, and says what was probably meant
+        elif value is not None:
+            given.append((option, _TEXT_OF_KIND[kind](name, value)))
+    return given
 
 
 def given_communicator(comm: Any) -> Optional[int]:
@@ -187,6 +258,8 @@ def given_communicator(comm: Any) -> Optional[int]:
 def given_labels(what: str, labels: Iterable[Any]) -> list:
     rows = []
     for index, row in enumerate(given_list(what, labels)):
+        if np.ma.is_masked(row):
+            raise InputError(f"shape {index}: the {what} are masked; give a number for every face")
         array = _NO_INTS if row is None else np.asarray(row)
         if array.ndim != 1 or (array.size and array.dtype.kind not in "iub"):
             raise InputError(f"shape {index}: the {what} must be F whole numbers, not {array.dtype} of the "
