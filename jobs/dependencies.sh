@@ -21,7 +21,7 @@ coseg_python_packages=(pybind11-dev python3-dev python3-numpy)
 # To build and run the tests as well.
 coseg_test_packages=(
     libgtest-dev python3 clang-format clang-tidy shellcheck procps file
-    python3-pytest python3-scipy python3-matplotlib # for the Python module's tests
+    python3-pytest python3-scipy python3-matplotlib python3-mpi4py # for the Python module's tests
     assimp-utils # reads GLB files in glb_readers_test.sh, as a second opinion
     slurm-wlm munge # for slurm_test.sh, which starts daemons of its own; the packages' own stay off without a slurm.conf
 )

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import functools
+import io
 from typing import Any, Iterable, Union
 
 import numpy as np
 
-from ._errors import InputError
+from ._errors import InputError, UsageError
 from ._segmentation import Result
-from ._shapes import MeshesLike, given_labels, given_shapes
+from ._shapes import MeshesLike, given_labels, given_number, given_shapes, given_whole_number
 
 
 def _triangles(vertices: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> tuple:
@@ -22,9 +24,26 @@ def _triangles(vertices: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -
     return vertices[rows[:, :3]], rows[:, 3]
 
 
+@functools.lru_cache(maxsize=None)
+def _picture_class() -> type:
+    """A figure that a notebook shows although pyplot, which would tell it how, is not imported. matplotlib is only
+    imported where a picture is drawn."""
+    from matplotlib.figure import Figure
+
+    class Picture(Figure):
+        def _repr_png_(self) -> bytes:
+            bytes_of_file = io.BytesIO()
+            self.savefig(bytes_of_file, format="png")
+            return bytes_of_file.getvalue()
+
+    return Picture
+
+
 def draw(meshes: MeshesLike, labels: Union[Result, Iterable[Any]], *, columns: int = 6, up: str = "z",
          size: float = 2.0) -> Any:
     """A matplotlib figure with every shape in its parts' colours, the same part in the same colour everywhere.
+
+    A notebook shows it; elsewhere figure.savefig("shapes.png") writes it.
 
     Args:
         meshes, labels: as in score().
@@ -33,20 +52,26 @@ def draw(meshes: MeshesLike, labels: Union[Result, Iterable[Any]], *, columns: i
         size: of one picture, in inches.
     """
     from matplotlib import colormaps
-    from matplotlib.figure import Figure
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     from . import load_mesh
+    axes_order = {"x": [1, 2, 0], "y": [2, 0, 1], "z": [0, 1, 2]}
+    if not isinstance(up, str) or up not in axes_order:
+        raise UsageError(f"up: {up!r} is none of 'x', 'y' and 'z'")
+    if given_whole_number("columns", columns) < 1:
+        raise UsageError(f"columns: {columns!r} is not positive")
+    if given_number("size", size) <= 0:
+        raise UsageError(f"size: {size!r} is not positive")
     rows = given_labels("labels", labels.labels if isinstance(labels, Result) else labels)
     shapes = given_shapes(meshes)
     if len(rows) != len(shapes):
         raise InputError(f"there are {len(shapes)} shapes and {len(rows)} arrays of labels; give as many of each")
     lines = -(-len(shapes) // columns)
-    figure = Figure(figsize=(size * min(columns, len(shapes)), size * lines), dpi=100, layout="constrained")
+    figure = _picture_class()(figsize=(size * min(columns, len(shapes)), size * lines), dpi=100, layout="constrained")
     light = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
     # The ten strong colours first, then the ten pale ones.
     palette = colormaps["tab20"](np.r_[0:20:2, 1:20:2])[:, :3]
-    order = {"x": [1, 2, 0], "y": [2, 0, 1], "z": [0, 1, 2]}[up]
+    order = axes_order[up]
     for k, ((_, path, vertices, corners, offsets), part) in enumerate(zip(shapes, rows), 1):
         if path:
             vertices, corners, offsets = load_mesh(path).arrays()

@@ -22,7 +22,7 @@ COSEG_WORK=$work/module COSEG_SET=$work/set timeout --signal=KILL 500 "$python" 
     fail "module_test.py"
 echo "ok: module_test.py"
 
-# Two processes that share the work, with and without mpi4py, give the bytes of one.
+# Two processes that share the work, with and without mpi4py, give the bytes of one and of the program on two.
 cat >"$work/shared.py" <<'END'
 import hashlib
 import os
@@ -32,9 +32,15 @@ comm = "world"
 if sys.argv[1] == "mpi4py":
     from mpi4py import MPI
     comm = MPI.COMM_WORLD
-shapes = [coseg.load_mesh(path) for path in coseg.mesh_files(sys.argv[4])[:4]]
-result = coseg.segment(shapes, 2, names=[s.name for s in shapes], patches=20, geodesic_samples=50,
-                       oversegmentations=1, comm=comm)
+    try:
+        coseg.cluster([[1, 0], [0, 1]], 2, comm=MPI.COMM_NULL)
+        raise SystemExit("MPI_COMM_NULL was taken")
+    except coseg.UsageError as error:
+        assert "MPI_COMM_NULL" in str(error), error
+files = coseg.mesh_files(sys.argv[4])[:4]
+shapes = [coseg.load_mesh(path) for path in files]
+names = [os.path.splitext(os.path.basename(path))[0] for path in files]
+result = coseg.segment(shapes, 2, names=names, patches=20, geodesic_samples=50, oversegmentations=1, comm=comm)
 assert result.report["ranks"] == int(sys.argv[2]), result.report["ranks"]
 try:
     coseg.segment([shapes[0], ([[0, 0, 0]], [[0, 0, 9]])], 2, comm=comm)
@@ -58,6 +64,16 @@ if "$python" -c "import mpi4py" 2>/dev/null; then
     ranks 2 "$python" "$work/shared.py" mpi4py 2 "$work/mpi4py" "$work/set/meshes" || fail "a script with mpi4py"
     give_the_bytes mpi4py
 fi
+mkdir "$work/four"
+cp "$work"/set/meshes/table_000[0-3].off "$work/four"
+ranks 2 "$COSEG" run --quiet --parts 2 --patches 20 --geodesic-samples 50 --oversegmentations 1 --no-sheet --no-html \
+    --out "$work/of_program" "$work/four" || fail "the program on two processes"
+"$python" - "$work"/of_program/labels/*.seg >"$work/hash" <<'END'
+import hashlib, sys
+import numpy
+print(hashlib.sha256(b"".join(numpy.loadtxt(path, dtype=numpy.int32).tobytes() for path in sys.argv[1:])).hexdigest())
+END
+[[ $(sort -u "$work/together"/*) == "$(cat "$work/hash")" ]] || fail "labels of two processes of Python and of the program"
 echo "ok: two processes"
 
 # The examples run, and draw; the cells of a notebook are run one after the other, as Jupyter would. All cut the same tables, which
@@ -91,6 +107,8 @@ for cell in code:
 figure = names["shown"][1]
 figure.savefig(f"{work}/notebook.png")
 assert len(figure.axes) == 12
+# What Jupyter asks a result for. Nothing here has imported pyplot, which would tell it how to show any figure.
+assert "matplotlib.pyplot" not in sys.modules and figure._repr_png_().startswith(b"\x89PNG"), "no picture in a notebook"
 assert 0.8 < names["shown"][2] <= 1.0, names["shown"]
 END
 [[ $(head -c 4 "$work/picture.png" | tail -c 3) == PNG ]] || fail "segment_generated.py draws nothing"
