@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Measures what coseg.segment in Python takes beside `coseg run`, and whether many calls keep memory.
+"""Measures what a process of Python takes beside `coseg run`, and whether many calls keep memory.
 
-usage: python_overhead.py COSEG FOLDER PARTS [--repeat N]     whole processes on one rank, alternately; medians in seconds
+usage: python_overhead.py COSEG FOLDER PARTS [--repeat N]     whole processes on one rank, in pairs; ratios of the pairs
        python_overhead.py --memory CALLS                      resident memory over calls on small shapes, in MiB
 
-PYTHONPATH must lead to the module. Both are given the mesh files of FOLDER; Python reads them into arrays first. Labels
-must be equal.
+PYTHONPATH must lead to the module. Both are given the mesh files of FOLDER, and both write a folder of results; Python
+reads the files into arrays first. The order within a pair changes from pair to pair. Labels must be equal.
 """
 import argparse
 import os
@@ -18,17 +18,14 @@ import time
 
 SCRIPT = """
 import sys, time
-import coseg, numpy, os
+import coseg, os
 start = time.process_time()
 files = coseg.mesh_files(sys.argv[1])
 meshes = [coseg.load_mesh(path) for path in files]
 names = [os.path.splitext(os.path.basename(path))[0] for path in files]
 read = time.process_time()
-result = coseg.segment(meshes, int(sys.argv[2]), names=names)
-done = time.process_time()
-for name, labels in zip(names, result.labels):
-    numpy.savetxt(os.path.join(sys.argv[3], name + ".seg"), labels, fmt="%d")
-print(start, read - start, done - read)
+coseg.segment(meshes, int(sys.argv[2]), names=names, out=sys.argv[3], replace=True, sheet=False, html=False)
+print(start, read - start)
 """
 
 
@@ -42,34 +39,38 @@ def timed(words, **more):
     return seconds, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, answer.stdout
 
 
+def summary(values):
+    return f"{statistics.median(values):8.3f} ({min(values):.3f} to {max(values):.3f})"
+
+
 def overhead(arguments):
     environment = {**os.environ, "COSEG_RANKS": "1"}
-    rows = {key: [] for key in ("program", "program cpu", "python", "python cpu", "import", "read", "call")}
+    rows = {key: [] for key in ("clock", "processor", "program", "python", "import", "read")}
     with tempfile.TemporaryDirectory() as work:
-        for _ in range(arguments.repeat):
-            seconds, cpu, _ = timed([arguments.coseg, "run", "--quiet", "--force", "--no-sheet", "--no-html", "--parts",
-                                     arguments.parts, "--out", work + "/run", arguments.folder], env=environment)
-            rows["program"].append(seconds)
-            rows["program cpu"].append(cpu)
-            os.makedirs(work + "/python", exist_ok=True)
-            seconds, cpu, told = timed([sys.executable, "-c", SCRIPT, arguments.folder, arguments.parts,
-                                        work + "/python"], env=environment)
-            rows["python"].append(seconds)
-            rows["python cpu"].append(cpu)
-            for key, value in zip(("import", "read", "call"), told.split()):
+        program = [arguments.coseg, "run", "--quiet", "--force", "--no-sheet", "--no-html", "--parts", arguments.parts, "--out",
+                   work + "/run", arguments.folder]
+        python = [sys.executable, "-c", SCRIPT, arguments.folder, arguments.parts, work + "/python"]
+        for pair in range(arguments.repeat):
+            taken = {}
+            for words in (program, python) if pair % 2 == 0 else (python, program):
+                taken[words[0]] = timed(words, env=environment)
+            own, other = taken[program[0]], taken[python[0]]
+            rows["clock"].append(other[0] / own[0])
+            rows["processor"].append(other[1] / own[1])
+            rows["program"].append(own[1])
+            rows["python"].append(other[1])
+            for key, value in zip(("import", "read"), other[2].split()):
                 rows[key].append(float(value))
+            print(f"pair {pair + 1}: coseg run {own[0]:.2f} s of the clock, {own[1]:.2f} s of the processor; "
+                  f"Python {other[0]:.2f} and {other[1]:.2f} s", flush=True)
         for name in sorted(os.listdir(work + "/run/labels")):
-            with open(f"{work}/run/labels/{name}", "rb") as own, open(f"{work}/python/{name}", "rb") as other:
+            with open(f"{work}/run/labels/{name}", "rb") as own, open(f"{work}/python/labels/{name}", "rb") as other:
                 if own.read() != other.read():
                     sys.exit(f"labels of {name} differ")
-    medians = {key: statistics.median(values) for key, values in rows.items()}
-    for key, name in (("program", "coseg run"), ("python", "python process")):
-        print(f"{name:15s} {medians[key]:8.2f} s of the clock ({min(rows[key]):.2f} to {max(rows[key]):.2f}), "
-              f"{medians[key + ' cpu']:8.2f} s of the processor")
-    print(f"  of the processor: importing {medians['import']:.2f} s, reading files {medians['read']:.2f} s, "
-          f"coseg.segment {medians['call']:.2f} s, the rest is writing labels as text")
-    print(f"overhead of reading and coseg.segment over the whole program, by the processor: "
-          f"{100 * ((medians['read'] + medians['call']) / medians['program cpu'] - 1):.1f} %")
+    print(f"Python over the program, median (and range) of the pairs: by the processor{summary(rows['processor'])}, "
+          f"by the clock{summary(rows['clock'])}")
+    print(f"  of the processor: starting and importing {statistics.median(rows['import']):.2f} s, reading files into arrays "
+          f"{statistics.median(rows['read']):.2f} s")
     print("labels are equal")
 
 
@@ -91,7 +92,7 @@ def main():
     parser.add_argument("coseg", nargs="?")
     parser.add_argument("folder", nargs="?")
     parser.add_argument("parts", nargs="?")
-    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--repeat", type=int, default=5)
     parser.add_argument("--memory", type=int, metavar="CALLS")
     arguments = parser.parse_args()
     if arguments.memory:
