@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,13 @@ auto in_call(const Communicator& communicator, const py::object& progress, Work&
     };
     const py::gil_scoped_release released;
     return work(call);
+}
+
+/// The same for work that has no progress, such as reading a file.
+template <class Work>
+auto with_interpreter_free(Work&& work) {
+    const py::gil_scoped_release released;
+    return work();
 }
 
 /// A shape as the Python side hands it over: (name, path, vertices, corners, offsets).
@@ -286,11 +294,40 @@ py::list generate(const std::string& family, int count, std::uint64_t seed, int 
     return list;
 }
 
-/// The handle of MPI_COMM_WORLD, for scripts that mpirun starts and that have no mpi4py. MPI must be there.
+/// On which the processes that share work wait for each other before they end; nothing else is said on it.
+MPI_Comm leaving = MPI_COMM_NULL;
+bool has_left = false;
+
+/// The handle of MPI_COMM_WORLD, for scripts that mpirun starts and that have no mpi4py. Collective the first
+/// time.
 int world() {
     coseg::start();
+    if (leaving == MPI_COMM_NULL) MPI_Comm_dup(MPI_COMM_WORLD, &leaving);
     return static_cast<int>(MPI_Comm_c2f(MPI_COMM_WORLD));
 }
+
+/// Waits until all processes have come here or have been here; at most so many seconds, unless that is
+/// negative. Whether they have.
+bool leave_together(double seconds) {
+    int is_finalized = 0;
+    MPI_Finalized(&is_finalized);
+    if (has_left || is_finalized != 0) return true;
+    has_left = true;
+    const py::gil_scoped_release released;
+    const auto begin = std::chrono::steady_clock::now();
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibarrier(leaving, &request);
+    while (true) {
+        int is_done = 0;
+        MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+        if (is_done != 0) return true;
+        const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+        if (seconds >= 0.0 && waited.count() > seconds) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+}
+
+void end_all() { MPI_Abort(MPI_COMM_WORLD, 1); }
 
 void add_arguments(py::module_& module) {
     py::class_<SegmentArguments>(module, "SegmentArguments")
@@ -341,11 +378,14 @@ PYBIND11_MODULE(_core, module) {
     module.def("option_names", &coseg::option_names);
     module.def("option_kinds", &coseg::option_kinds);
     module.def("mesh_files", [](const std::vector<std::string>& arguments) {
-        return texts_of(coseg::mesh_files(arguments));
+        return texts_of(with_interpreter_free([&] { return coseg::mesh_files(arguments); }));
     });
-    module.def("changed_files",
-               [](const std::string& folder) { return texts_of(coseg::changed_files(folder)); });
-    module.def("load_mesh", [](const std::string& path) { return tuple_of(coseg::load_mesh(path)); });
+    module.def("changed_files", [](const std::string& folder) {
+        return texts_of(with_interpreter_free([&] { return coseg::changed_files(folder); }));
+    });
+    module.def("load_mesh", [](const std::string& path) {
+        return tuple_of(with_interpreter_free([&] { return coseg::load_mesh(path); }));
+    });
     module.def("generate", &generate);
     module.def("load_model", &load_model);
     module.def("segment", &segment);
@@ -355,4 +395,6 @@ PYBIND11_MODULE(_core, module) {
     module.def("cluster", &cluster);
     module.def("start", &coseg::start);
     module.def("world", &world);
+    module.def("leave_together", &leave_together);
+    module.def("end_all", &end_all);
 }

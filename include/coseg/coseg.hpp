@@ -124,8 +124,8 @@ COSEG_VISIBLE void start();
 /// The names of the options that the functions below take.
 COSEG_VISIBLE std::vector<std::string> option_names();
 
-/// What each of these options takes, in the same order: "on or off", "whole number", "number", "numbers" (joined
-/// by commas) or "text", which may be a number too.
+/// What each of these options takes, in the same order: "on or off", "whole number", "number", "numbers"
+/// (joined by commas) or "text", which may be a number too.
 COSEG_VISIBLE std::vector<std::string> option_kinds();
 
 // ---- Segmentation ----

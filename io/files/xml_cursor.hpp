@@ -26,7 +26,8 @@ class XmlCursor {
     XmlCursor(std::string_view text, std::string path);
 
     /// The next tag; nothing if none is left. Comments and processing instructions are passed over. Throws
-    /// Error(input) where a tag or a comment is cut short or not understood, and for declarations (<!DOCTYPE).
+    /// Error(input) where a tag or a comment is cut short or not understood, and for declarations
+    /// (<!DOCTYPE).
     std::optional<XmlTag> next_tag();
 
     /// The text between the last tag and what stands before it.

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "io/files/text_cursor.hpp"
 #include "io/files/base64.hpp"
+#include "io/files/text_cursor.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 

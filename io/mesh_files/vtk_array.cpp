@@ -71,8 +71,8 @@ std::vector<std::uint64_t> lengths_of(const std::string& bytes, const VtkEncodin
     return lengths;
 }
 
-/// The bytes of an array that is compressed in blocks: their number, the length of a whole one and that of the
-/// last one (0: it is whole too), and the lengths of all when compressed, before the blocks themselves.
+/// The bytes of an array that is compressed in blocks: their number, the length of a whole one and that of
+/// the last one (0: it is whole too), and the lengths of all when compressed, before the blocks themselves.
 class CompressedBlocks {
   public:
     CompressedBlocks(const VtkArray& array, const VtkEncoding& encoding, const std::string& path)

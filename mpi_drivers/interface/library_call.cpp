@@ -61,7 +61,7 @@ void start_petsc() {
 /// MPI ends the process where it is handed what is no communicator of a group.
 MPI_Comm communicator_of(const Call& call) {
     if (call.communicator == nullptr) return MPI_COMM_SELF;
-    const MPI_Comm given = *static_cast<const MPI_Comm*>(call.communicator);
+    MPI_Comm given = *static_cast<const MPI_Comm*>(call.communicator);
     int is_between_groups = 0;
     if (given != MPI_COMM_NULL) MPI_Comm_test_inter(given, &is_between_groups);
     if (given == MPI_COMM_NULL || is_between_groups != 0)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import atexit
 import functools
 import math
 import numbers
 import operator
 import os
+import sys
 from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -241,13 +243,34 @@ def given_options(options: Mapping[str, Any]) -> list:
     return given
 
 
+@functools.lru_cache(maxsize=None)
+def _end_together() -> None:
+    """Sees to it that a process which ends by an exception of its own alone does not leave the others waiting for ever."""
+    before = sys.excepthook
+
+    def tell_and_end(*told: Any) -> None:
+        before(*told)
+        sys.stderr.flush()
+        if not _core.leave_together(_SECONDS_TO_FAIL_TOGETHER):
+            _core.end_all()
+
+    sys.excepthook = tell_and_end
+    atexit.register(_core.leave_together, -1.0)
+
+
+#: Where all processes fail alike, they come to their ends within this time.
+_SECONDS_TO_FAIL_TOGETHER = 5.0
+
+
 def given_communicator(comm: Any) -> Optional[int]:
     """The Fortran handle of a communicator of mpi4py or of anything with py2f(); "world" is all processes."""
     if comm is None:
         return None
     if isinstance(comm, str) and comm == "world":
         with translated():
-            return _core.world()
+            handle = _core.world()
+        _end_together()
+        return handle
     if hasattr(comm, "py2f"):
         with translated():
             _core.start()

@@ -530,3 +530,7 @@ def test_the_module_says_what_it_is():
     for name in coseg.__all__:
         value = getattr(coseg, name)
         assert value.__doc__ or not (inspect.isclass(value) or inspect.isfunction(value)), name
+        if inspect.isfunction(value):
+            hints = inspect.signature(value)
+            assert hints.return_annotation is not inspect.Signature.empty, name
+            assert all(one.annotation is not inspect.Parameter.empty for one in hints.parameters.values()), name

@@ -64,6 +64,24 @@ if "$python" -c "import mpi4py" 2>/dev/null; then
     ranks 2 "$python" "$work/shared.py" mpi4py 2 "$work/mpi4py" "$work/set/meshes" || fail "a script with mpi4py"
     give_the_bytes mpi4py
 fi
+# A process that fails alone ends the others, which wait for it in a call.
+cat >"$work/fails.py" <<'END'
+import os
+import sys
+import coseg
+coseg.cluster([[2, 1], [1, 2], [2, 1], [1, 2]], 2, comm="world")
+if sys.argv[1] == "all" or os.environ["OMPI_COMM_WORLD_RANK"] == "1":
+    raise LookupError("a mistake of the script")
+coseg.cluster([[2, 1], [1, 2], [2, 1], [1, 2]], 2, comm="world")
+END
+for who in one all; do
+    status=0
+    ranks 2 "$python" "$work/fails.py" "$who" >"$work/out" 2>&1 || status=$?
+    [[ $status -ne 0 && $status -ne 137 ]] || fail "exit code $status where $who of two processes fails: $(cat "$work/out")"
+    grep -q "LookupError: a mistake of the script" "$work/out" || fail "no traceback where $who of two processes fails"
+done
+if grep -q MPI_ABORT "$work/out"; then fail "processes that fail alike end by MPI_Abort"; fi
+echo "ok: no process is left behind"
 mkdir "$work/four"
 cp "$work"/set/meshes/table_000[0-3].off "$work/four"
 ranks 2 "$COSEG" run --quiet --parts 2 --patches 20 --geodesic-samples 50 --oversegmentations 1 --no-sheet --no-html \

@@ -52,6 +52,24 @@ TEST(RunOptionTable, TakesANumberOfPartsOrFindsIt) {
         EXPECT_THROW(parse(bad), CLI::ParseError) << bad;
 }
 
+TEST(RunOptionTable, SaysWhatEachNamedOptionTakes) {
+    const std::vector<std::string> names = named_option_names();
+    const std::vector<OptionKind> kinds = named_option_kinds();
+    ASSERT_EQ(names.size(), kinds.size());
+    std::map<std::string, OptionKind> kind_of;
+    for (std::size_t k = 0; k < names.size(); ++k) kind_of[names[k]] = kinds[k];
+    for (const char* name : {"patches", "seed", "max-iterations", "subsets"})
+        EXPECT_EQ(kind_of.at(name), OptionKind::whole_number) << name;
+    for (const char* name : {"alpha", "gap", "cut-noise"})
+        EXPECT_EQ(kind_of.at(name), OptionKind::number) << name;
+    for (const char* name : {"choose", "sheet", "levels"})
+        EXPECT_EQ(kind_of.at(name), OptionKind::on_or_off) << name;
+    for (const char* name : {"links", "weld", "remesh", "preset", "view", "examples"})
+        EXPECT_EQ(kind_of.at(name), OptionKind::text) << name;
+    EXPECT_EQ(kind_of.at("feature-weights"), OptionKind::numbers);
+    EXPECT_EQ(kind_of.count("parts"), 0U);  // said in another way
+}
+
 /// Another value of every option of the table but --config and --preset, as it stands on the command line.
 const std::map<std::string, std::vector<std::string>> changes = {
     {"parts", {"--parts=4"}},
