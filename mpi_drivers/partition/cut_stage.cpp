@@ -1,6 +1,7 @@
 #include "mpi_drivers/partition/cut_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "solvers/partition/part_count.hpp"
@@ -48,15 +49,17 @@ bool looks_at_positions(const Eigen::Matrix3Xd& positions, const PartitionOption
 }
 
 /// Of the descriptors that have a weight in the choice, and of positions.
-std::vector<ChoiceDescriptor> choice_descriptors(const PatchFeatures& features,
+std::vector<ChoiceDescriptor> choice_descriptors(const PatchNumbering& numbering,
+                                                 const PatchFeatures& features,
                                                  const PartitionOptions& options) {
     std::vector<ChoiceDescriptor> descriptors;
     if (!options.choose) return descriptors;
+    const double weight = share_weight(numbering);
     for (std::size_t h = 0; h < features.histograms.size(); ++h) {
         const auto [pooled, per_mesh] = features.descriptors[h].partition;
         if (pooled > 0.0 || per_mesh > 0.0)
-            descriptors.push_back(
-                {features.histograms[h].cast<float>(), {.pooled = pooled, .per_mesh = per_mesh}});
+            descriptors.push_back({features.histograms[h].cast<float>(),
+                                   {.pooled = weight * pooled, .per_mesh = weight * per_mesh}});
     }
     if (looks_at_positions(features.positions, options))
         descriptors.push_back({features.positions.cast<float>(), {.pooled = 7.0, .per_mesh = 0.0}});
@@ -74,10 +77,15 @@ int part_number(const CountedParts& counted) {
 
 }  // namespace
 
+double share_weight(const PatchNumbering& numbering) {
+    const double segmentations = static_cast<double>(numbering.mesh_count()) * numbering.oversegmentations();
+    return std::pow(numbering.patch_count() / segmentations / 50.0, 0.6);
+}
+
 PartitionInput partition_input(const Collection& collection, PatchFeatures features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                const ExampleLabels& examples) {
-    std::vector<ChoiceDescriptor> choice = choice_descriptors(features, options);
+    std::vector<ChoiceDescriptor> choice = choice_descriptors(collection.numbering, features, options);
     FeatureMatrices clustered;
     if (options.method == PartitionMethod::diffusion || options.choose || !examples.empty())
         clustered = std::move(features.histograms);

@@ -33,6 +33,11 @@ struct PartitionInput {
     }
 };
 
+/// What the weights in the choice of the shares that parts explain of the histograms are multiplied with:
+/// (p / 50)^0.6 for p patches in the mean over-segmentation. Histograms of smaller patches scatter more, so
+/// that the same parts explain less of them (docs/method.md, section 7). `numbering` has at least one mesh.
+double share_weight(const PatchNumbering& numbering);
+
 /// Takes from the features what the cut uses; `examples` are not copied. The rest is freed: in a large
 /// collection it is most of the memory, which the cut needs for its graphs. Collective where the features are
 /// the last handle of their memory.

@@ -18,7 +18,7 @@ namespace coseg {
 namespace {
 
 constexpr const char* cut_format = "coseg cut";
-constexpr int cut_version = 11;
+constexpr int cut_version = 12;
 
 /// Tile by tile, as columns are owned.
 ContentHash hash_of_coefficients(const Comm& comm, const SparseCoefficients& w) {

@@ -18,6 +18,7 @@ class PatchNumbering {
     PatchNumbering(int oversegmentations, const std::vector<int>& patches);
 
     [[nodiscard]] int oversegmentations() const noexcept { return oversegmentations_; }
+    [[nodiscard]] int mesh_count() const noexcept { return mesh_count_; }
     [[nodiscard]] int patch_count() const noexcept { return first_.back(); }
 
     /// First global number of over-segmentation `s` of mesh `m`.

@@ -1,8 +1,11 @@
-// What a cut is made with must mean the same however often each mesh is over-segmented.
+// What a cut is made with must mean the same however often, and into however many patches, each mesh is
+// over-segmented.
 
 #include "mpi_drivers/partition/cut_stage.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "src/base/index.hpp"
 
@@ -44,6 +47,13 @@ TEST(CutOptions, CreasesWeighTheSameInAnyNumberOfOversegmentations) {
     EXPECT_DOUBLE_EQ(of_three, ChoiceWeights().crease * -3.0 * 0.25 * 0.25) << "the weight is that of three";
     EXPECT_DOUBLE_EQ(cost_of_boundary(repeated_rows(1)), of_three);
     EXPECT_DOUBLE_EQ(cost_of_boundary(repeated_rows(9)), of_three);
+}
+
+TEST(ShareWeight, FollowsThePatchesOfAnOversegmentationAndNothingElse) {
+    EXPECT_EQ(share_weight(PatchNumbering(1, {50, 50})), 1.0) << "the weights of the table are those of 50";
+    EXPECT_EQ(share_weight(PatchNumbering(3, {50, 50, 50, 40, 50, 60})), 1.0) << "of the mean";
+    EXPECT_DOUBLE_EQ(share_weight(PatchNumbering(2, {100, 100})), std::exp2(0.6));
+    EXPECT_DOUBLE_EQ(share_weight(PatchNumbering(1, {25, 25, 25})), std::exp2(-0.6));
 }
 
 }  // namespace
