@@ -78,10 +78,6 @@ FinishedRun run_of(const std::string& folder, const Json& report) {
     return run;
 }
 
-std::string path_of_report(const std::string& folder) {
-    return (std::filesystem::path(folder) / "report.json").string();
-}
-
 void add_if_changed(std::vector<std::string>& changed, const std::string& path, const std::string& checksum) {
     if (checksum.empty() || !std::filesystem::exists(path)) return;
     if (hash_bytes(read_file(path)).hex() != checksum) changed.push_back(path);
@@ -91,15 +87,19 @@ FinishedRun checked_run_of(const std::string& folder, const Json& report) {
     try {
         return run_of(folder, report);
     } catch (const Error& error) {
-        throw Error(error.code(), path_of_report(folder) + ": " + error.what() +
+        throw Error(error.code(), report_path(folder) + ": " + error.what() +
                                       "; correct what was edited, or run coseg run again");
     }
 }
 
 }  // namespace
 
+std::string report_path(const std::string& folder) {
+    return (std::filesystem::path(folder) / "report.json").string();
+}
+
 FinishedRun read_finished_run(const std::string& folder) {
-    const std::string path = path_of_report(folder);
+    const std::string path = report_path(folder);
     if (!std::filesystem::exists(path)) {
         throw Error(
             ExitCode::input,
@@ -126,7 +126,7 @@ std::string changed_file_sentence(const std::string& path) {
 std::vector<std::string> files_changed_since(const std::string& folder) {
     const FinishedRun run = read_finished_run(folder);
     std::vector<std::string> changed;
-    if (run.is_report_changed) changed.push_back(path_of_report(folder));
+    if (run.is_report_changed) changed.push_back(report_path(folder));
     for (const FinishedShape& shape : run.shapes) {
         add_if_changed(changed, folder + "/labels/" + shape.name + ".seg", shape.labels_xxh3);
         add_if_changed(changed, folder + "/patches/" + shape.name + ".seg", shape.patches_xxh3);

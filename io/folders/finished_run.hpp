@@ -35,6 +35,9 @@ struct FinishedRun {
     std::vector<FinishedShape> shapes;
 };
 
+/// The path of the report of the run in this folder.
+std::string report_path(const std::string& folder);
+
 /// Reads DIR/report.json. Throws Error(input) if the folder holds no report, one that coseg has not written,
 /// or one in which a number is impossible.
 FinishedRun read_finished_run(const std::string& folder);

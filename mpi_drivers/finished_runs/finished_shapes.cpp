@@ -135,7 +135,7 @@ FinishedRun read_run(const Comm& comm, const std::string& folder) {
     FinishedRun run;
     agree(comm, [&] { run = read_finished_run(folder); });
     if (run.is_report_changed && comm.is_root())
-        std::fprintf(stderr, "coseg: warning: %s\n", changed_file_sentence(folder + "/report.json").c_str());
+        std::fprintf(stderr, "coseg: warning: %s\n", changed_file_sentence(report_path(folder)).c_str());
     return run;
 }
 

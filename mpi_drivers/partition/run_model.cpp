@@ -7,6 +7,7 @@
 #include <span>
 
 #include "io/files/hdf5_file.hpp"
+#include "io/folders/finished_run.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "src/base/error.hpp"
@@ -296,7 +297,7 @@ RunModel read_run_model(const std::string& folder) {
     namespace fs = std::filesystem;
     const std::string path = (fs::path(folder) / model_file).string();
     if (!fs::exists(path)) {
-        const bool is_run = fs::exists(fs::path(folder) / "report.json");
+        const bool is_run = fs::exists(report_path(folder));
         throw Error(
             ExitCode::input,
             is_run

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "io/files/file_contents.hpp"
+#include "io/folders/finished_run.hpp"
 #include "io/reports/report_page.hpp"
 #include "src/base/index.hpp"
 #include "src/mesh/polygon_area.hpp"
@@ -101,7 +102,7 @@ void write_html_report(const Comm& comm, const FinishedInput& input, const std::
         "coseg: " + std::to_string(run.shapes.size()) + " shapes, " + std::to_string(run.parts) + " parts";
     agree(comm, [&] {
         if (!comm.is_root()) return;
-        page.report_json = read_file(input.folder + "/report.json");
+        page.report_json = read_file(report_path(input.folder));
         const std::string sheet = input.folder + "/" + sheet_file(to_string(SheetColoring::parts));
         if (std::filesystem::exists(sheet)) page.sheet_png = read_file(sheet);
         write_report_page(out + "/report.html", page);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "io/files/atomic_file.hpp"
+#include "io/folders/finished_run.hpp"
 #include "io/reports/report_page.hpp"
 #include "mpi_drivers/results/alignment_output.hpp"
 #include "mpi_drivers/results/level_output.hpp"
@@ -54,7 +55,7 @@ std::string write_results(const Comm& comm, const std::string& folder, const Run
     }
     std::string report = run_report(comm, outcome, log);
     agree(comm, [&] {
-        if (comm.is_root()) write_file(folder + "/report.json", report);
+        if (comm.is_root()) write_file(report_path(folder), report);
     });
     if (options.html && can_write_report_page()) {
         log.begin("page");
