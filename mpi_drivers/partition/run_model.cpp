@@ -18,6 +18,9 @@ namespace coseg {
 
 namespace {
 
+/// How many shapes of a large collection a model keeps.
+constexpr std::size_t kept_of_many = 64;
+
 /// The meshes to keep, ascending: all of a small collection, else those whose names have the least hashes.
 std::vector<int> kept_meshes(const std::vector<MeshFacts>& meshes, std::uint64_t seed) {
     std::vector<int> order(meshes.size());
@@ -26,7 +29,7 @@ std::vector<int> kept_meshes(const std::vector<MeshFacts>& meshes, std::uint64_t
     const auto hash = [&](int m) { return hash_words({seed, hash_text(meshes[at(m)].name)}); };
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return std::pair(hash(a), a) < std::pair(hash(b), b); });
-    order.resize(static_cast<std::size_t>(default_links));
+    order.resize(kept_of_many);
     std::sort(order.begin(), order.end());
     return order;
 }

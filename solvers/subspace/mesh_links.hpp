@@ -10,7 +10,7 @@ namespace coseg {
 /// Above this number of meshes each one is linked to `default_links` others, unless more are asked for.
 /// Measured in docs/method.md.
 inline constexpr int meshes_linked_to_all = 128;
-inline constexpr int default_links = 64;
+inline constexpr int default_links = 32;
 
 /// For each mesh the meshes that it is linked to, ascending: SubspaceProblem::allowed_meshes. The result is
 /// empty, which means all other meshes, where `links` is at least one less than the number of meshes.
