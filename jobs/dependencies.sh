@@ -9,7 +9,7 @@ coseg_packages=(
     libpetsc-real-dev libslepc-real-dev
     libopenblas-dev # without it PETSC's BLAS is the reference one, many times slower
     libeigen3-dev libspectra-dev libboost-graph-dev libnanoflann-dev
-    libopenmesh-dev libembree-dev libpng-dev zlib1g-dev
+    libopenmesh-dev libembree-dev libpng-dev zlib1g-dev libexpat1-dev
     libjs-three libjs-chart.js # built into the program for report.html
     libhdf5-openmpi-dev libxxhash-dev # PETSc's packages bring the former anyway
     libcli11-dev nlohmann-json3-dev

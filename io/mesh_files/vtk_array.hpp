@@ -19,11 +19,11 @@ struct VtkEncoding {
 };
 
 struct VtkArray {
-    std::string what;         ///< for messages: "'offsets' of Polys"
-    std::string_view type;    ///< "Float32"
-    std::string_view format;  ///< "ascii", "binary" (base64) or "appended"
-    std::string_view text;    ///< of the first two
-    std::string_view offset;  ///< of the last: where the array begins in VtkEncoding::appended
+    std::string what;       ///< for messages: "'offsets' of Polys"
+    std::string type;       ///< "Float32"
+    std::string format;     ///< "ascii", "binary" (base64) or "appended"
+    std::string_view text;  ///< of the first two
+    std::string offset;     ///< of the last: where the array begins in VtkEncoding::appended
 };
 
 /// All numbers of the array. Throws Error(input), a sentence that begins with "PATH: " and names the array,

@@ -50,8 +50,7 @@ class VtkDocumentReader {
                 return std::move(document_);
             }
         }
-        cursor_.fail(saw_root_ ? "the file is cut short; export the mesh again"
-                               : "the file has no tag 'VTKFile'; export the mesh as VTP");
+        cursor_.fail("the file has no tag 'VTKFile'; export the mesh as VTP");
     }
 
   private:
@@ -113,12 +112,12 @@ class VtkDocumentReader {
         if (document_.pieces.empty()) cursor_.fail("an array stands in no 'Piece'; export the mesh again");
         const std::string_view name = tag.attribute("Name");
         const bool is_points = section_ == "Points";
-        VtkArray array{is_points ? "of Points" : in_quotes(name) + " of " + std::string(section_),
-                       tag.attribute("type"),
-                       tag.attribute("format", "ascii"),
+        VtkArray array{is_points ? "of Points" : in_quotes(name) + " of " + section_,
+                       std::string(tag.attribute("type")),
+                       std::string(tag.attribute("format", "ascii")),
                        {},
-                       tag.attribute("offset")};
-        const std::string key = is_points ? "Points" : std::string(section_) + "/" + std::string(name);
+                       std::string(tag.attribute("offset"))};
+        const std::string key = is_points ? "Points" : section_ + "/" + std::string(name);
         array_ = &document_.pieces.back().arrays[key];
         *array_ = std::move(array);
         tags_in_array_ = 0;
@@ -142,7 +141,7 @@ class VtkDocumentReader {
 
     XmlCursor cursor_;
     VtkDocument document_;
-    std::string_view section_;
+    std::string section_;
     VtkArray* array_ = nullptr;
     int tags_in_array_ = -1;  ///< that are open; -1 outside of arrays
     bool saw_root_ = false;

@@ -11,7 +11,7 @@ namespace coseg {
 namespace {
 
 TEST(XmlCursor, GivesTagsWithTheirAttributesAndTheTextBetween) {
-    XmlCursor cursor("<?xml version='1.0'?>\n<a one=\"1 > 0\" two = 'x'><!-- <b> -->text<b/></a >rest",
+    XmlCursor cursor("<?xml version='1.0'?>\n<a one=\"1 > 0\" two = 'x'><!-- <b> -->text<b/></a >\xff rest",
                      "f.xml");
     // A '>' inside quotation marks ends no tag.
     std::optional<XmlTag> tag = cursor.next_tag();
@@ -28,9 +28,18 @@ TEST(XmlCursor, GivesTagsWithTheirAttributesAndTheTextBetween) {
     tag = cursor.next_tag();
     ASSERT_TRUE(tag);
     EXPECT_TRUE(tag->name == "a" && !tag->begins && tag->ends);
-    EXPECT_EQ(cursor.rest(), "rest");
+    EXPECT_EQ(cursor.rest(), "\xff rest");
+    EXPECT_EQ(test::error_of([&] { cursor.next_tag(); }).sentence.substr(0, 27),
+              "f.xml:2: the XML is damaged");
+}
+
+TEST(XmlCursor, EndsBehindTheRoot) {
+    XmlCursor cursor("<a>&lt;</a>\n<!-- c -->", "f.xml");
+    ASSERT_TRUE(cursor.next_tag());
+    ASSERT_TRUE(cursor.next_tag());
+    EXPECT_EQ(cursor.text_before_tag(), "&lt;") << "as it stands there";
     EXPECT_FALSE(cursor.next_tag());
-    EXPECT_EQ(cursor.text_before_tag(), "rest");
+    EXPECT_FALSE(cursor.next_tag());
 }
 
 TEST(XmlCursor, RefusesWhatIsCutShortOrNotUnderstood) {
@@ -42,14 +51,15 @@ TEST(XmlCursor, RefusesWhatIsCutShortOrNotUnderstood) {
                })
             .sentence;
     };
-    EXPECT_TRUE(sentence("<a>\n<b c=\"1\"").starts_with("f.xml:2: a tag is cut short"));
-    EXPECT_TRUE(sentence("<a>\n<b c=\"1>").starts_with("f.xml:2: a tag is cut short"));
-    EXPECT_TRUE(sentence("<>").starts_with("f.xml:1: a tag has no name"));
-    EXPECT_TRUE(sentence("<a b>").starts_with("f.xml:1: the tag 'a' has an attribute without a value"));
-    EXPECT_TRUE(sentence("<a b=1>").starts_with("f.xml:1: the tag 'a' has an attribute without a value"));
-    EXPECT_TRUE(sentence("<!DOCTYPE a>").starts_with("f.xml:1: declarations of XML"));
-    EXPECT_TRUE(sentence("<? a").starts_with("f.xml:1: '<?' is not ended"));
-    EXPECT_EQ(sentence("no tag"), "");
+    for (const char* cut : {"<a>\n<b c=\"1\"", "<a>\n<b c=\"1>", "<a>\n<!-- b", "<a>\n<?b "})
+        EXPECT_TRUE(sentence(cut).starts_with("f.xml:2: the XML is cut short")) << sentence(cut);
+    for (const char* cut : {"", "<a>", "<a/"})
+        EXPECT_TRUE(sentence(cut).starts_with("f.xml:1: the XML is cut short")) << sentence(cut);
+    for (const char* damaged :
+         {"\n<>", "\n<a b>", "\n<a b=1>", "\nno tag", "<a>\n</b>", "<a/>\n<b/>", "\n<a>&b;</a>"})
+        EXPECT_TRUE(sentence(damaged).starts_with("f.xml:2: the XML is damaged (")) << sentence(damaged);
+    EXPECT_TRUE(
+        sentence("\n<!DOCTYPE a [<!ENTITY b \"c\">]><a/>").starts_with("f.xml:2: declarations of XML"));
 }
 
 }  // namespace

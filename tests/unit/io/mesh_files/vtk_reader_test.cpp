@@ -88,8 +88,8 @@ TEST(VtkReader, SentencesNameWhatIsWrong) {
     expect_says(document("", three_points, ""), "no array 'Polys/offsets'");
     expect_says("<VTKFile type=\"ImageData\"></VTKFile>", "the file holds 'ImageData'");
     expect_says("<VTKFile type=\"PolyData\">\n<Piece NumberOfPoints=3></VTKFile>",
-                "a.vtp:2: the tag 'Piece'");
-    expect_says("\n<!-- <VTKFile", "a.vtp:2: '<!--' is not ended by '-->'");
+                "a.vtp:2: the XML is damaged (not well-formed");
+    expect_says("\n<!-- <VTKFile", "a.vtp:2: the XML is cut short");
 }
 
 TEST(VtkReader, CoordinatesThatHaveLostDigitsAreWarnedOf) {
