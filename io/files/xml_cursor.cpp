@@ -91,46 +91,40 @@ class XmlCursor::Parser {
         }
     }
 
-    void move_behind_event() {
+    void pass_over() noexcept {
         tag_ = static_cast<std::size_t>(XML_GetCurrentByteIndex(expat_));
         next_ = tag_ + static_cast<std::size_t>(XML_GetCurrentByteCount(expat_));
     }
-
-    void pass_over() noexcept { move_behind_event(); }
 
     void refuse() noexcept {
         is_declared_ = true;
         XML_StopParser(expat_, XML_FALSE);
     }
 
+    void stop_at(XmlTag tag) {
+        const std::size_t before = next_;
+        pass_over();
+        text_before_ = text_.substr(before, tag_ - before);
+        found_ = std::move(tag);
+        XML_StopParser(expat_, XML_TRUE);
+    }
+
     static void begin_of_element(void* parser, const char* name, const char** attributes) {
-        Parser& self = of(parser);
-        self.guarded([&] {
-            const std::size_t before = self.next_;
-            self.move_behind_event();
-            self.text_before_ = self.text_.substr(before, self.tag_ - before);
+        of(parser).guarded([&] {
             XmlTag tag{name, true, false};
             for (; *attributes != nullptr; attributes += 2)
                 tag.attributes.emplace_back(attributes[0], attributes[1]);
-            self.found_ = std::move(tag);
-            XML_StopParser(self.expat_, XML_TRUE);
+            of(parser).stop_at(std::move(tag));
         });
     }
 
     /// The end of <a/> comes at once, although Expat has been stopped at its begin.
     static void end_of_element(void* parser, const char* name) {
         Parser& self = of(parser);
-        if (self.found_) {
+        if (self.found_)
             self.found_->ends = true;
-            return;
-        }
-        self.guarded([&] {
-            const std::size_t before = self.next_;
-            self.move_behind_event();
-            self.text_before_ = self.text_.substr(before, self.tag_ - before);
-            self.found_ = XmlTag{name, false, true};
-            XML_StopParser(self.expat_, XML_TRUE);
-        });
+        else
+            self.guarded([&] { self.stop_at({name, false, true}); });
     }
 
     std::string_view text_;
