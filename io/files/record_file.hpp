@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/files/hdf5_file.hpp"
+#include "src/base/enum_names.hpp"
 #include "src/base/error.hpp"
 #include "src/records/fields.hpp"
 
@@ -70,6 +71,18 @@ void write_scalars(Hdf5Writer& file, const std::string& name, const Range& value
     }
 }
 
+/// Whether a number of a file is that of a value of T: a truth value is 0 or 1, an enumerator has a name.
+template <class T>
+bool stands_for_value(Kept<T> number) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return number == 0 || number == 1;
+    } else if constexpr (std::is_enum_v<T>) {
+        return !name_of(static_cast<T>(number)).empty();
+    } else {
+        return true;
+    }
+}
+
 template <class T>
 std::vector<T> read_scalars(const Hdf5Reader& file, const std::string& name) {
     auto numbers = file.read<Kept<T>>(name);
@@ -77,7 +90,12 @@ std::vector<T> read_scalars(const Hdf5Reader& file, const std::string& name) {
         return numbers;
     } else {
         std::vector<T> values;
-        for (const auto number : numbers) values.push_back(static_cast<T>(number));
+        for (const auto number : numbers) {
+            if (!stands_for_value<T>(number))
+                throw Error(ExitCode::input, file.path() + ": '" + name + "' holds " +
+                                                 std::to_string(number) + ", which stands for nothing");
+            values.push_back(static_cast<T>(number));
+        }
         return values;
     }
 }

@@ -34,7 +34,7 @@ std::string with_checksum(std::string text) {
 
 bool has_right_checksum(std::string_view text) {
     const std::size_t place = place_of_checksum(text);
-    return place == std::string_view::npos ||
+    return place != std::string_view::npos &&
            text.substr(place, blank_checksum.size()) == checksum_at(text, place);
 }
 

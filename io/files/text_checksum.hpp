@@ -14,7 +14,8 @@ inline constexpr std::string_view blank_checksum = "0000000000000000000000000000
 /// The text is as JsonTree writes it: a blank stands behind the colon.
 std::string with_checksum(std::string text);
 
-/// Whether the text is as with_checksum() returned it, or has no such member (texts of earlier versions).
+/// Whether the text is as with_checksum() returned it. A text without such a member is not: one flipped bit
+/// can hide the name of the member.
 bool has_right_checksum(std::string_view text);
 
 }  // namespace coseg

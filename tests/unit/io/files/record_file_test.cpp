@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "tests/support/every_kind.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -71,6 +75,30 @@ TEST(RecordFile, ColumnsOfDifferentLengthAreRefused) {
     writer.write("rows/values/value", std::vector<double>{1.0});
     writer.commit();
     EXPECT_THROW(read_column<Nested>(Hdf5Reader(name, "coseg test", 1), "rows"), Error);
+}
+
+/// Whether a column of T that holds this number in a file is refused.
+template <class T>
+bool is_refused(std::int8_t number) {
+    const TemporaryFolder folder;
+    const std::string name = folder.path() + "/column.h5";
+    Hdf5Writer writer(name, "coseg test", 1);
+    writer.write("column", std::vector<std::int8_t>{0, number});
+    writer.commit();
+    try {
+        read_column<T>(Hdf5Reader(name, "coseg test", 1), "column");
+        return false;
+    } catch (const Error&) {
+        return true;
+    }
+}
+
+TEST(RecordFile, NumbersThatStandForNothingAreRefused) {
+    EXPECT_FALSE(is_refused<test::Metal>(1));
+    EXPECT_TRUE(is_refused<test::Metal>(2));
+    EXPECT_TRUE(is_refused<test::Metal>(-1));
+    EXPECT_FALSE(is_refused<bool>(1));
+    EXPECT_TRUE(is_refused<bool>(2));
 }
 
 TEST(RecordFile, MatricesOfImpossibleSizesAreRefused) {

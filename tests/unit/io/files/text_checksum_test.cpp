@@ -19,21 +19,18 @@ TEST(TextChecksum, IsThatOfTheTextWithZeros) {
     EXPECT_FALSE(has_right_checksum(blank));
 }
 
-TEST(TextChecksum, TextsWithoutOneAreTaken) {
+TEST(TextChecksum, TextsWithoutOneAreNotRight) {
     EXPECT_EQ(with_checksum("{}"), "{}");
-    EXPECT_TRUE(has_right_checksum("{\"format\": \"a\"}"));
+    EXPECT_FALSE(has_right_checksum("{\"format\": \"a\"}"));
 }
 
 TEST(TextChecksum, FindsEveryFlippedBit) {
     const std::string text = with_checksum(blank);
-    const std::size_t key = text.find("\"text_xxh3\": \"");
     for (std::size_t byte = 0; byte < text.size(); ++byte) {
         for (int bit = 0; bit < 8; ++bit) {
             std::string flipped = text;
             flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << bit));
-            // Without its key a checksum is none, and nothing else of the text has changed.
-            const bool is_in_key = byte >= key && byte < text.find(hash_bytes(blank).hex());
-            EXPECT_EQ(has_right_checksum(flipped), is_in_key) << byte << " " << bit;
+            EXPECT_FALSE(has_right_checksum(flipped)) << byte << " " << bit;
         }
     }
 }
