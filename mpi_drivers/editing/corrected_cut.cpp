@@ -225,9 +225,10 @@ std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const Corre
     const std::vector<int> mesh_of = base.collection.numbering.mesh_of();
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(base.collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(base.collection);
+    const std::vector<ChoiceDescriptor> choice = input.choice();
     return std::make_unique<CorrectedParts>(
         comm,
-        CutInput{coefficients, neighbors, overlaps, mesh_of, input.patch_area, input.choice,
+        CutInput{coefficients, neighbors, overlaps, mesh_of, input.patch_area, choice,
                  input.known_positions(), nullptr, &features.histograms},
         cut_options(input, options), base.cut.confidence);
 }

@@ -48,22 +48,18 @@ bool looks_at_positions(const Eigen::Matrix3Xd& positions, const PartitionOption
     return options.choose && options.places && positions.cols() > 0;
 }
 
-/// Of the descriptors that have a weight in the choice, and of positions.
-std::vector<ChoiceDescriptor> choice_descriptors(const PatchNumbering& numbering,
-                                                 const PatchFeatures& features,
-                                                 const PartitionOptions& options) {
-    std::vector<ChoiceDescriptor> descriptors;
-    if (!options.choose) return descriptors;
+std::vector<BetweenPartVariance> choice_weights(const PatchNumbering& numbering,
+                                                const PatchFeatures& features,
+                                                const PartitionOptions& options) {
+    std::vector<BetweenPartVariance> weights;
+    if (!options.choose) return weights;
     const double weight = share_weight(numbering);
     for (std::size_t h = 0; h < features.histograms.size(); ++h) {
         const auto [pooled, per_mesh] = features.descriptors[h].partition;
-        if (pooled > 0.0 || per_mesh > 0.0)
-            descriptors.push_back({features.histograms[h].cast<float>(),
-                                   {.pooled = weight * pooled, .per_mesh = weight * per_mesh}});
+        weights.push_back({.pooled = weight * pooled, .per_mesh = weight * per_mesh});
     }
-    if (looks_at_positions(features.positions, options))
-        descriptors.push_back({features.positions.cast<float>(), {.pooled = 7.0, .per_mesh = 0.0}});
-    return descriptors;
+    if (looks_at_positions(features.positions, options)) weights.push_back({.pooled = 7.0, .per_mesh = 0.0});
+    return weights;
 }
 
 /// The number of parts that is taken.
@@ -82,10 +78,20 @@ double share_weight(const PatchNumbering& numbering) {
     return std::pow(numbering.patch_count() / segmentations / 50.0, 0.6);
 }
 
+std::vector<ChoiceDescriptor> PartitionInput::choice() const {
+    std::vector<ChoiceDescriptor> descriptors;
+    for (std::size_t h = 0; h < choice_weights.size(); ++h) {
+        const BetweenPartVariance& weight = choice_weights[h];
+        if (weight.pooled > 0.0 || weight.per_mesh > 0.0)
+            descriptors.push_back({h < histograms.size() ? histograms[h] : patch_columns(positions), weight});
+    }
+    return descriptors;
+}
+
 PartitionInput partition_input(const Collection& collection, PatchFeatures features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                const ExampleLabels& examples) {
-    std::vector<ChoiceDescriptor> choice = choice_descriptors(collection.numbering, features, options);
+    std::vector<BetweenPartVariance> weights = choice_weights(collection.numbering, features, options);
     FeatureMatrices clustered;
     if (options.method == PartitionMethod::diffusion || options.choose || !examples.empty())
         clustered = std::move(features.histograms);
@@ -93,7 +99,7 @@ PartitionInput partition_input(const Collection& collection, PatchFeatures featu
             .coefficients = coefficients,
             .patch_area = std::move(features.patch_area),
             .positions = std::move(features.positions),
-            .choice = std::move(choice),
+            .choice_weights = std::move(weights),
             .histograms = std::move(clustered),
             .examples = examples.empty() ? nullptr : &examples};
 }
@@ -130,8 +136,9 @@ CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const Pa
     }
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(input.collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(input.collection);
+    const std::vector<ChoiceDescriptor> choice = input.choice();
     const CutInput cut{
-        input.coefficients,      neighbors,      overlaps,         mesh_of, input.patch_area, input.choice,
+        input.coefficients,      neighbors,      overlaps,         mesh_of, input.patch_area, choice,
         input.known_positions(), input.examples, &input.histograms};
     if (options.parts != found_parts && !options.levels)
         return partition_patches(comm, cut, cut_options(input, options));

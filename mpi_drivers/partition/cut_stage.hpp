@@ -20,13 +20,16 @@ struct PartitionInput {
     const SparseCoefficients& coefficients;
     std::vector<double> patch_area;  ///< N
     Eigen::Matrix3Xd positions;      ///< 3 x N; 3 x 0 where what is cut are not patches
-    /// by which one of several starts is chosen; none with a single one.
-    std::vector<ChoiceDescriptor> choice;
+    /// Per feature, and then of positions, the weights of its explained shares in the choice among several
+    /// starts; none with a single one.
+    std::vector<BetweenPartVariance> choice_weights;
     /// Of --partition diffusion, which clusters them; of a choice among starts, whose parts are scored by
     /// them; and of examples, which are followed by them; none otherwise.
     FeatureMatrices histograms;
     const ExampleLabels* examples = nullptr;  ///< null where there are none
 
+    /// What has a weight in the choice. Refers to histograms and positions of this input.
+    [[nodiscard]] std::vector<ChoiceDescriptor> choice() const;
     /// Null where there are none.
     [[nodiscard]] const Eigen::Matrix3Xd* known_positions() const noexcept {
         return positions.cols() > 0 ? &positions : nullptr;

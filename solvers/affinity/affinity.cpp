@@ -1,6 +1,7 @@
 #include "solvers/affinity/affinity.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "src/base/index.hpp"
 
@@ -21,7 +22,7 @@ SparseRows plus_transpose(const Comm& comm, const SparseCoefficients& coefficien
             entries.push_back({column, coefficients.rows[k], values[k]});
         }
     }
-    return exchange_entries(comm, coefficients.size, entries);
+    return exchange_entries(comm, coefficients.size, std::move(entries));
 }
 
 /// The weight of `pair` in each mesh's own scale.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "src/base/index.hpp"
 #include "src/parallel/owner_exchange.hpp"
@@ -56,10 +57,10 @@ SparseRows rows_from_entries(std::int64_t size, BlockRange range, std::vector<Sp
     return matrix;
 }
 
-SparseRows exchange_entries(const Comm& comm, std::int64_t size, const std::vector<SparseEntry>& entries) {
+SparseRows exchange_entries(const Comm& comm, std::int64_t size, std::vector<SparseEntry> entries) {
     std::vector<SparseEntry> mine = sent_to_owners(
-        comm, entries, [&](const SparseEntry& e) { return block_owner(size, comm.size(), e.row, row_tile); },
-        "affinities");
+        comm, std::move(entries),
+        [&](const SparseEntry& e) { return block_owner(size, comm.size(), e.row, row_tile); }, "affinities");
     return rows_from_entries(size, block_range(size, comm.size(), comm.rank(), row_tile), std::move(mine));
 }
 

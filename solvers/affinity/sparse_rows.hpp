@@ -39,7 +39,7 @@ struct SparseRows {
 SparseRows rows_from_entries(std::int64_t size, BlockRange range, std::vector<SparseEntry> entries);
 
 /// The same, made of entries of any row on any rank: each entry is sent to the owner of its row. Collective.
-SparseRows exchange_entries(const Comm& comm, std::int64_t size, const std::vector<SparseEntry>& entries);
+SparseRows exchange_entries(const Comm& comm, std::int64_t size, std::vector<SparseEntry> entries);
 
 /// All rows on every rank. Collective.
 SparseRows gather_rows(const Comm& comm, const SparseRows& local);

@@ -187,7 +187,7 @@ CountedParts count_parts(const Comm& comm, const CutInput& input, CutOptions opt
     const GraphInput graphs{neighbors, overlaps, input.mesh_of, input.positions};
     const PartitionEvidence evidence{neighbors,     overlaps,         input.descriptors,
                                      input.mesh_of, input.patch_area, links_count ? &terms.base : nullptr};
-    const PartitionObjective objective = partition_objective(evidence, options.choice);
+    const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
     const CountTask task{evidence, objective, options.choice};
     std::vector<CountedPartition> mine;
     for (const PartitionCandidate& clustering : start_clusterings(

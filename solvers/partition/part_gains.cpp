@@ -41,7 +41,7 @@ PartGains::PartGains(const PartitionObjective& objective, const std::vector<int>
 
 Eigen::MatrixXd PartGains::of_mesh(BlockRange patches) const {
     const Eigen::Index count = patches.size();
-    const Eigen::MatrixXf x = objective_.deviations.middleCols(patches.begin, count);
+    const Eigen::MatrixXf x = objective_.deviations.matrix().middleCols(patches.begin, count);
     const Eigen::Map<const Eigen::VectorXd> area(objective_.area.data() + patches.begin, count);
     const Eigen::Map<const Eigen::RowVectorXd> share(objective_.share.data() + patches.begin, count);
     Eigen::MatrixXf own = Eigen::MatrixXf::Zero(x.rows(), area_.size());

@@ -6,10 +6,24 @@
 #include <utility>
 
 #include "src/base/index.hpp"
+#include "src/parallel/node_shared_array.hpp"
 
 namespace coseg {
 
+PatchDeviations::PatchDeviations(Eigen::MatrixXf own) : rows_(own.rows()), columns_(own.cols()) {
+    const auto kept = std::make_shared<const Eigen::MatrixXf>(std::move(own));
+    values_ = std::shared_ptr<const float>(kept, kept->data());
+}
+
+PatchDeviations::PatchDeviations(std::shared_ptr<const float> values, Eigen::Index rows, Eigen::Index columns)
+    : values_(std::move(values)), rows_(rows), columns_(columns) {}
+
 namespace {
+
+int mesh_count(const PartitionEvidence& evidence) {
+    const std::vector<int>& mesh_of = evidence.mesh_of;
+    return mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
+}
 
 std::vector<double> mesh_areas(const PartitionEvidence& evidence, int meshes) {
     std::vector<double> areas(at(meshes), 0.0);
@@ -19,11 +33,12 @@ std::vector<double> mesh_areas(const PartitionEvidence& evidence, int meshes) {
 }
 
 /// Writes the deviations of a descriptor into rows `first` and following.
-void add_deviations(const PartitionEvidence& evidence, const Eigen::MatrixXf& x,
-                    const std::vector<double>& mesh_area, Eigen::Index first, Eigen::MatrixXf& deviations) {
+void add_deviations(const PartitionEvidence& evidence, const PatchColumns& x,
+                    const std::vector<double>& mesh_area, Eigen::Index first,
+                    Eigen::Map<Eigen::MatrixXf> deviations) {
     Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(x.rows(), static_cast<Eigen::Index>(mesh_area.size()));
     for (Eigen::Index i = 0; i < x.cols(); ++i)
-        mean.col(evidence.mesh_of[at(i)]) += evidence.patch_area[at(i)] * x.col(i).cast<double>();
+        mean.col(evidence.mesh_of[at(i)]) += evidence.patch_area[at(i)] * x.col(i);
     for (std::size_t m = 0; m < mesh_area.size(); ++m) {
         if (mesh_area[m] > 0.0) mean.col(static_cast<Eigen::Index>(m)) /= mesh_area[m];
     }
@@ -32,9 +47,8 @@ void add_deviations(const PartitionEvidence& evidence, const Eigen::MatrixXf& x,
     auto rows = deviations.middleRows(first, x.rows());
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
         const double area = evidence.patch_area[at(i)];
-        const Eigen::VectorXd of_patch = x.col(i).cast<double>();
-        const Eigen::VectorXd deviation = of_patch - mean.col(evidence.mesh_of[at(i)]);
-        squares += area * of_patch.squaredNorm();
+        const Eigen::VectorXd deviation = x.col(i) - mean.col(evidence.mesh_of[at(i)]);
+        squares += area * x.col(i).squaredNorm();
         spread += area * deviation.squaredNorm();
         rows.col(i) = (area * deviation).cast<float>();
     }
@@ -72,26 +86,62 @@ void add_overlaps(const PartitionEvidence& evidence, double weight, Ties& ties) 
     }
 }
 
-}  // namespace
-
-PartitionObjective partition_objective(const PartitionEvidence& evidence, const ChoiceWeights& weights) {
-    const std::vector<int>& mesh_of = evidence.mesh_of;
-    const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
-    const std::vector<double> mesh_area = mesh_areas(evidence, meshes);
+/// D.
+Eigen::Index dimension(const PartitionEvidence& evidence) {
     Eigen::Index rows = 0;
     for (const ChoiceDescriptor& d : evidence.descriptors) rows += d.histograms.rows();
-    PartitionObjective objective;
-    objective.deviations.resize(rows, static_cast<Eigen::Index>(mesh_of.size()));
-    objective.per_mesh.resize(rows);
-    objective.pooled.resize(rows);
+    return rows;
+}
+
+/// Writes the deviations of every descriptor whose number is `first` and a multiple of `step`.
+void write_deviations(const PartitionEvidence& evidence, std::size_t first, std::size_t step,
+                      Eigen::Map<Eigen::MatrixXf> deviations) {
+    const std::vector<double> mesh_area = mesh_areas(evidence, mesh_count(evidence));
+    Eigen::Index row = 0;
+    for (std::size_t h = 0; h < evidence.descriptors.size(); ++h) {
+        const PatchColumns& x = evidence.descriptors[h].histograms;
+        if (h % step == first) add_deviations(evidence, x, mesh_area, row, deviations);
+        row += x.rows();
+    }
+}
+
+/// What the ranks of a node write together. Collective.
+PatchDeviations shared_deviations(const Comm& comm, const PartitionEvidence& evidence) {
+    const Eigen::Index rows = dimension(evidence);
+    const auto columns = static_cast<Eigen::Index>(evidence.mesh_of.size());
+    const auto memory = std::make_shared<NodeSharedArray<float>>(comm, at(rows * columns));
+    const Comm& node = memory->ranks().here();
+    write_deviations(evidence, at(node.rank()), at(node.size()), {memory->data(), rows, columns});
+    memory->fence();
+    return {std::shared_ptr<const float>(memory, memory->data()), rows, columns};
+}
+
+PatchDeviations own_deviations(const PartitionEvidence& evidence) {
+    Eigen::MatrixXf own(dimension(evidence), static_cast<Eigen::Index>(evidence.mesh_of.size()));
+    write_deviations(evidence, 0, 1, {own.data(), own.rows(), own.cols()});
+    return PatchDeviations(std::move(own));
+}
+
+void weigh_rows(const PartitionEvidence& evidence, PartitionObjective& objective) {
+    objective.per_mesh.resize(dimension(evidence));
+    objective.pooled.resize(dimension(evidence));
     Eigen::Index first = 0;
     for (const ChoiceDescriptor& d : evidence.descriptors) {
-        add_deviations(evidence, d.histograms, mesh_area, first, objective.deviations);
-        objective.per_mesh.segment(first, d.histograms.rows())
-            .setConstant(static_cast<float>(d.weight.per_mesh));
-        objective.pooled.segment(first, d.histograms.rows()).setConstant(static_cast<float>(d.weight.pooled));
-        first += d.histograms.rows();
+        const Eigen::Index rows = d.histograms.rows();
+        objective.per_mesh.segment(first, rows).setConstant(static_cast<float>(d.weight.per_mesh));
+        objective.pooled.segment(first, rows).setConstant(static_cast<float>(d.weight.pooled));
+        first += rows;
     }
+}
+
+PartitionObjective objective_of(const PartitionEvidence& evidence, const ChoiceWeights& weights,
+                                PatchDeviations deviations) {
+    const std::vector<int>& mesh_of = evidence.mesh_of;
+    const int meshes = mesh_count(evidence);
+    const std::vector<double> mesh_area = mesh_areas(evidence, meshes);
+    PartitionObjective objective;
+    objective.deviations = std::move(deviations);
+    weigh_rows(evidence, objective);
     Ties ties(mesh_of.size());
     for (const GlobalPatchNeighbors& pair : evidence.neighbors)
         ties.add(pair.patch_a, pair.patch_b, weights.crease * crease_cost(pair) / meshes);
@@ -112,6 +162,17 @@ PartitionObjective partition_objective(const PartitionEvidence& evidence, const 
         objective.link_gain = all > 0.0 ? 2.0 * weights.links / all : 0.0;
     }
     return objective;
+}
+
+}  // namespace
+
+PartitionObjective partition_objective(const PartitionEvidence& evidence, const ChoiceWeights& weights) {
+    return objective_of(evidence, weights, own_deviations(evidence));
+}
+
+PartitionObjective partition_objective(const Comm& comm, const PartitionEvidence& evidence,
+                                       const ChoiceWeights& weights) {
+    return objective_of(evidence, weights, shared_deviations(comm, evidence));
 }
 
 std::vector<BlockRange> patches_of_meshes(const PartitionObjective& objective) {

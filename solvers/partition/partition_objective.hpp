@@ -2,11 +2,13 @@
 // The part of the score that is a sum over the parts, prepared so that a search can try many partitions.
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "solvers/partition/partition_terms.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/block_range.hpp"
+#include "src/parallel/comm.hpp"
 
 namespace coseg {
 
@@ -14,6 +16,30 @@ namespace coseg {
 struct PatchTie {
     int other = 0;
     double gain = 0.0;  ///< >= 0
+};
+
+/// D x N numbers in single precision, column major: of one rank, or of which the ranks of a node hold one copy
+/// together. Copies are handles of the same values.
+class PatchDeviations {
+  public:
+    PatchDeviations() = default;
+    explicit PatchDeviations(Eigen::MatrixXf own);
+    /// `values` are those of D rows and N columns.
+    PatchDeviations(std::shared_ptr<const float> values, Eigen::Index rows, Eigen::Index columns);
+
+    [[nodiscard]] Eigen::Index rows() const noexcept { return rows_; }
+    [[nodiscard]] Eigen::Map<const Eigen::MatrixXf> matrix() const noexcept {
+        return {values_.get(), rows_, columns_};
+    }
+    /// The values of patch i.
+    [[nodiscard]] Eigen::Map<const Eigen::VectorXf> col(Eigen::Index i) const noexcept {
+        return {values_.get() + i * rows_, rows_};
+    }
+
+  private:
+    std::shared_ptr<const float> values_;
+    Eigen::Index rows_ = 0;
+    Eigen::Index columns_ = 0;
 };
 
 /// The score of partition_score without concavity, which is a ratio and no sum over the parts, and but for a
@@ -27,7 +53,7 @@ struct PatchTie {
 struct PartitionObjective {
     /// D x N, column major: area times (x - mean of the mesh) over the square root of the spread, the
     /// descriptors below each other.
-    Eigen::MatrixXf deviations;
+    PatchDeviations deviations;
     Eigen::VectorXf per_mesh;                 ///< D, the weight of each row
     Eigen::VectorXf pooled;                   ///< likewise
     std::vector<std::vector<PatchTie>> ties;  ///< of each patch, by both of its ends
@@ -40,7 +66,13 @@ struct PartitionObjective {
     double link_gain = 0.0;             ///< of a link of weight 1 between patches of the same part
 };
 
+/// In the memory of this rank alone.
 PartitionObjective partition_objective(const PartitionEvidence& evidence, const ChoiceWeights& weights);
+
+/// The same, with deviations that a node holds once. `evidence` is the same on all ranks. Collective; the last
+/// handle of the deviations must be destroyed at the same place on all ranks of a node.
+PartitionObjective partition_objective(const Comm& comm, const PartitionEvidence& evidence,
+                                       const ChoiceWeights& weights);
 
 /// The patches of each mesh, which follow one another.
 std::vector<BlockRange> patches_of_meshes(const PartitionObjective& objective);

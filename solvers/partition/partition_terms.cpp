@@ -16,13 +16,13 @@ struct HistogramSums {
     double squares = 0.0;        ///< sum over patches of area |x|^2
 };
 
-HistogramSums sums_of_parts(const Eigen::MatrixXf& histograms, const std::vector<int>& labels, int parts,
+HistogramSums sums_of_parts(const PatchColumns& histograms, const std::vector<int>& labels, int parts,
                             const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
     const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
     HistogramSums sums{Eigen::MatrixXd::Zero(histograms.rows(), Eigen::Index{parts} * meshes),
                        Eigen::MatrixXd::Zero(parts, meshes)};
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        const auto x = histograms.col(static_cast<Eigen::Index>(i)).cast<double>();
+        const auto x = histograms.col(static_cast<Eigen::Index>(i));
         sums.histograms.col(Eigen::Index{mesh_of[i]} * parts + labels[i]) += patch_area[i] * x;
         sums.area(labels[i], mesh_of[i]) += patch_area[i];
         sums.squares += patch_area[i] * x.squaredNorm();
@@ -110,7 +110,7 @@ double links_inside(const SparseRows& links, const std::vector<int>& labels) {
     return all > 0.0 ? inside / all : 0.0;
 }
 
-BetweenPartVariance between_part_variance(const Eigen::MatrixXf& histograms, const std::vector<int>& labels,
+BetweenPartVariance between_part_variance(const PatchColumns& histograms, const std::vector<int>& labels,
                                           int parts, const std::vector<double>& patch_area,
                                           const std::vector<int>& mesh_of) {
     const HistogramSums sums = sums_of_parts(histograms, labels, parts, patch_area, mesh_of);

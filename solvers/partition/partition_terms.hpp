@@ -11,9 +11,18 @@
 
 namespace coseg {
 
+/// Numbers of all patches, one column each, column major, where they lie.
+using PatchColumns = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+/// All columns of a matrix in double, which must outlive the result.
+template <class Matrix>
+PatchColumns patch_columns(const Matrix& matrix) {
+    return {matrix.data(), matrix.rows(), matrix.cols(), Eigen::OuterStride<>(matrix.rows())};
+}
+
 /// A descriptor that a good partition should explain.
 struct ChoiceDescriptor {
-    Eigen::MatrixXf histograms;  ///< bins x N, column major, of any scale; or other numbers of a patch
+    PatchColumns histograms;     ///< bins x N, of any scale; or other numbers of a patch
     BetweenPartVariance weight;  ///< weights of its explained shares in the score
 };
 
@@ -75,7 +84,7 @@ double links_inside(const SparseRows& links, const std::vector<int>& labels);
 /// What tells shapes apart counts in neither. Otherwise a partition by style (round legs, square legs) would
 /// seem to explain much. Both are 0 where the patches of each mesh are all alike. Sums are in double, in the
 /// order of patches.
-BetweenPartVariance between_part_variance(const Eigen::MatrixXf& histograms, const std::vector<int>& labels,
+BetweenPartVariance between_part_variance(const PatchColumns& histograms, const std::vector<int>& labels,
                                           int parts, const std::vector<double>& patch_area,
                                           const std::vector<int>& mesh_of);
 

@@ -17,7 +17,7 @@ struct PartSums {
     PartSums() = default;
     PartSums(Eigen::Index rows, int parts)
         : deviations(Eigen::MatrixXf::Zero(rows, parts)), area(Eigen::VectorXd::Zero(parts)) {}
-    void add(int part, const Eigen::MatrixXf& x, Eigen::Index patch, double sign, double patch_area) {
+    void add(int part, const PatchDeviations& x, Eigen::Index patch, double sign, double patch_area) {
         deviations.col(part) += static_cast<float>(sign) * x.col(patch);
         area(part) += sign * patch_area;
     }

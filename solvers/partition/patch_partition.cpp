@@ -80,16 +80,17 @@ Found found_and_expanded(const Comm& comm, const SearchTask& task, const CutOpti
 /// Collective.
 Found found_alone(const Comm& comm, const PartitionEvidence& evidence, const CutOptions& options,
                   std::vector<PartitionCandidate> clusterings) {
-    const PartitionObjective objective = partition_objective(evidence, options.choice);
+    const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
     return found_and_expanded(comm, {evidence, objective, options.choice, options.parts}, options,
                               std::move(clusterings));
 }
 
-/// The scores of the examples as a descriptor that a partition should explain, beside the others.
+/// The scores of the examples as a descriptor that a partition should explain, beside the others. The scores
+/// must outlive the result.
 std::vector<ChoiceDescriptor> with_scores(std::span<const ChoiceDescriptor> descriptors,
                                           const Eigen::MatrixXd& scores, double weight) {
     std::vector<ChoiceDescriptor> all(descriptors.begin(), descriptors.end());
-    all.push_back({scores.cast<float>(), {.pooled = weight, .per_mesh = weight}});
+    all.push_back({patch_columns(scores), {.pooled = weight, .per_mesh = weight}});
     return all;
 }
 
@@ -100,7 +101,7 @@ Found found_explaining(const Comm& comm, const PartitionEvidence& evidence, cons
         with_scores(evidence.descriptors, scores, options.examples.explained);
     PartitionEvidence sought = evidence;
     sought.descriptors = descriptors;
-    const PartitionObjective objective = partition_objective(sought, options.choice);
+    const PartitionObjective objective = partition_objective(comm, sought, options.choice);
     return found_by_search(comm, {sought, objective, options.choice, options.parts}, std::move(clusterings));
 }
 
@@ -126,7 +127,7 @@ Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvi
     });
     std::vector<int> best_labels = labels_of_best_scores(told);
     Found explaining = found_explaining(comm, evidence, told, options, clusterings);
-    const PartitionObjective objective = partition_objective(evidence, options.choice);
+    const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
     const SearchTask task{evidence, objective, options.choice, options.parts};
     Found alone = found_and_expanded(comm, task, options, std::move(clusterings));
     BaseChoice base(objective, *input.examples, std::move(told), options.examples.scores);
@@ -172,8 +173,8 @@ std::vector<int> labels_of_pieces(const std::vector<int>& piece_of_patch, int pi
 }
 
 /// The tree over the pieces in which clusters of patches and the parts of the finest known level divide each
-/// other.
-PartTree tree_of(const PartitionEvidence& evidence, const CutOptions& options,
+/// other. Collective.
+PartTree tree_of(const Comm& comm, const PartitionEvidence& evidence, const CutOptions& options,
                  const std::vector<int>& part_of_patch, const std::vector<int>& cluster_of_patch) {
     PartitionsByNumber levels =
         nested_levels(part_of_patch, options.parts, options.guides, evidence.patch_area);
@@ -186,7 +187,7 @@ PartTree tree_of(const PartitionEvidence& evidence, const CutOptions& options,
     const int count = 1 + *std::max_element(pieces.begin(), pieces.end());
     const std::vector<int> part_of_piece = labels_of_pieces(pieces, count, part_of_patch);
     for (std::vector<int>& level : levels) level = labels_of_pieces(pieces, count, level);
-    const PartitionObjective objective = partition_objective(evidence, options.choice);
+    const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
     PartTree tree =
         part_tree(cluster_sums(objective, pieces, count), part_of_piece, options.finest_level, levels);
     for (int& piece : pieces) piece = tree.piece_of_patch[at(piece)];
@@ -293,7 +294,7 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
             {result.starts[at(result.chosen)].start.graph, std::max(options.finest_level, options.parts)}};
         const ClusteringTask finer{graphs, terms, fine, options.spectral, options.drop_below, options.parts};
         result.tree =
-            tree_of(evidence, options, result.part_of_patch,
+            tree_of(comm, evidence, options, result.part_of_patch,
                     all_gather_records(comm, start_clusterings(comm, finer, one_rank)).front().labels);
     }
     return result;

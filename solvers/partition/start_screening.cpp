@@ -75,15 +75,15 @@ SparseRows rows_of(const Comm& comm, const MeshSample& sample, const SparseRows&
             if (column >= 0) entries.push_back({row, column, all.values[k]});
         }
     }
-    return gather_rows(comm,
-                       exchange_entries(comm, static_cast<std::int64_t>(sample.patches.size()), entries));
+    return gather_rows(
+        comm, exchange_entries(comm, static_cast<std::int64_t>(sample.patches.size()), std::move(entries)));
 }
 
 /// What is known of the patches of the sample.
 struct SampledEvidence {
     std::vector<GlobalPatchNeighbors> neighbors;
     std::vector<GlobalPatchOverlap> overlaps;
-    std::vector<ChoiceDescriptor> descriptors;
+    std::vector<Eigen::MatrixXd> histograms;  ///< of each descriptor
     std::vector<double> patch_area;
     Eigen::Matrix3Xd positions;  ///< without columns where there are none
 };
@@ -92,10 +92,19 @@ SampledEvidence sampled_evidence(const MeshSample& sample, const PartitionEviden
                                  const Eigen::Matrix3Xd* positions) {
     SampledEvidence seen{pairs_of(sample, whole.neighbors), pairs_of(sample, whole.overlaps), {}, {}, {}};
     for (const ChoiceDescriptor& d : whole.descriptors)
-        seen.descriptors.push_back({d.histograms(Eigen::all, sample.patches), d.weight});
+        seen.histograms.push_back(d.histograms(Eigen::all, sample.patches));
     for (const int i : sample.patches) seen.patch_area.push_back(whole.patch_area[at(i)]);
     if (positions != nullptr) seen.positions = (*positions)(Eigen::all, sample.patches);
     return seen;
+}
+
+/// The descriptors of the whole, of the patches of the sample alone; `seen` must outlive them.
+std::vector<ChoiceDescriptor> sampled_descriptors(const SampledEvidence& seen,
+                                                  std::span<const ChoiceDescriptor> whole) {
+    std::vector<ChoiceDescriptor> descriptors;
+    for (std::size_t h = 0; h < whole.size(); ++h)
+        descriptors.push_back({patch_columns(seen.histograms[h]), whole[h].weight});
+    return descriptors;
 }
 
 /// The starts, in their order, whose graphs are those of the best candidates.
@@ -129,7 +138,8 @@ std::vector<CutStart> promising_starts(const Comm& comm, const ClusteringTask& w
                             whole.graphs.positions == nullptr ? nullptr : &seen.positions};
     const GraphTerms terms = graph_terms(Comm(MPI_COMM_SELF), rows_of(comm, sample, whole.terms.base), graphs,
                                          {.placed = asks_for_positions(whole.starts), .complete = true});
-    const PartitionEvidence sampled{seen.neighbors, seen.overlaps,   seen.descriptors,
+    const std::vector<ChoiceDescriptor> descriptors = sampled_descriptors(seen, evidence.descriptors);
+    const PartitionEvidence sampled{seen.neighbors, seen.overlaps,   descriptors,
                                     sample.mesh_of, seen.patch_area, evidence.links ? &terms.base : nullptr};
     const PartitionObjective objective = partition_objective(sampled, weights);
     const std::vector<PartitionCandidate> candidates = search_partitions(

@@ -30,9 +30,10 @@ void exchange_packed(const Comm& comm, const OwnerCounts& counts, std::size_t by
                      void* mine);
 
 /// The records whose owner this rank is, from all ranks: in the order of ranks, and of each as it has them.
-/// owner_of(record) is a rank. Collective. Throws as owner_counts.
+/// owner_of(record) is a rank. Records that are moved in are freed before those of others come. Collective.
+/// Throws as owner_counts.
 template <class Record, class OwnerOf>
-std::vector<Record> sent_to_owners(const Comm& comm, const std::vector<Record>& records, OwnerOf&& owner_of,
+std::vector<Record> sent_to_owners(const Comm& comm, std::vector<Record> records, OwnerOf&& owner_of,
                                    const std::string& what) {
     static_assert(std::is_trivially_copyable_v<Record>);
     std::vector<std::int64_t> outgoing(at(comm.size()), 0);
@@ -42,6 +43,7 @@ std::vector<Record> sent_to_owners(const Comm& comm, const std::vector<Record>& 
     std::exclusive_scan(counts.outgoing.begin(), counts.outgoing.end(), next.begin(), std::int64_t{0});
     std::vector<Record> packed(records.size());
     for (const Record& record : records) packed[at(next[at(owner_of(record))]++)] = record;
+    std::vector<Record>().swap(records);
     std::vector<Record> mine(
         at(std::accumulate(counts.incoming.begin(), counts.incoming.end(), std::int64_t{0})));
     exchange_packed(comm, counts, sizeof(Record), packed.data(), mine.data());

@@ -169,28 +169,20 @@ ToyCollection toy_collection(const Comm& comm, int meshes, int parts, int patche
         }
         w.offsets.push_back(static_cast<std::int64_t>(w.rows.size()));
     }
-    return toy;
-}
-
-Eigen::MatrixXf segment_histograms(const ToyCollection& toy) {
-    const int parts = 1 + *std::max_element(toy.truth.begin(), toy.truth.end());
-    Eigen::MatrixXf histograms(parts, toy.patches);
+    toy.histograms.resize(parts, toy.patches);
     for (int i = 0; i < toy.patches; ++i) {
         for (int p = 0; p < parts; ++p) {
             const double noise = 0.3 * uniform_of(hash_words({word(i), word(p)}));
-            histograms(p, i) =
-                static_cast<float>(toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 + noise : noise);
+            toy.histograms(p, i) = toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 + noise : noise;
         }
     }
-    return histograms;
+    return toy;
 }
 
-FeatureMatrices segment_features(const ToyCollection& toy) {
-    return FeatureMatrices({Eigen::MatrixXd(segment_histograms(toy).cast<double>())});
-}
+FeatureMatrices segment_features(const ToyCollection& toy) { return FeatureMatrices({toy.histograms}); }
 
-std::vector<ChoiceDescriptor> segment_descriptors(const ToyCollection& toy) {
-    return {{segment_histograms(toy), {.pooled = 1.0, .per_mesh = 4.8}}};
+std::vector<ChoiceDescriptor> segment_descriptors(const ToyCollection& toy, BetweenPartVariance weight) {
+    return {{patch_columns(toy.histograms), weight}};
 }
 
 CutInput toy_input(const ToyCollection& toy, std::span<const ChoiceDescriptor> descriptors,

@@ -51,16 +51,17 @@ struct ToyCollection {
     std::vector<GlobalPatchNeighbors> neighbors;
     std::vector<GlobalPatchOverlap> overlaps;
     SparseCoefficients coefficients;  ///< the columns of this rank
+    Eigen::MatrixXd histograms;       ///< K x N: a descriptor that tells the segments apart, with some noise
 };
 /// Relations are those of the meshes m with m % ranks = rank.
 ToyCollection toy_collection(const Comm& comm, int meshes, int parts, int patches_per_part,
                              std::uint64_t seed);
-/// K x N: a descriptor that tells the segments apart, with some noise.
-Eigen::MatrixXf segment_histograms(const ToyCollection& toy);
-/// The same as features of patches.
+/// Its histograms as features of patches.
 FeatureMatrices segment_features(const ToyCollection& toy);
-/// The same with what the descriptors of a run weigh together.
-std::vector<ChoiceDescriptor> segment_descriptors(const ToyCollection& toy);
+/// Its histograms, where they lie, with what the descriptors of a run weigh together.
+std::vector<ChoiceDescriptor> segment_descriptors(const ToyCollection& toy,
+                                                  BetweenPartVariance weight = {.pooled = 1.0,
+                                                                                .per_mesh = 4.8});
 /// What is cut; it refers to the arguments.
 CutInput toy_input(const ToyCollection& toy, std::span<const ChoiceDescriptor> descriptors,
                    const FeatureMatrices* features = nullptr);

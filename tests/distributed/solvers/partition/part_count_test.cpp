@@ -10,15 +10,15 @@ namespace coseg {
 namespace {
 
 using testing_graphs::same_partition;
-using testing_graphs::segment_histograms;
+using testing_graphs::segment_descriptors;
 using testing_graphs::toy_collection;
 using testing_graphs::toy_input;
 using testing_graphs::ToyCollection;
 
 CountedParts counted(const Comm& comm, int parts, std::int64_t one_rank_entries = 1'000'000) {
     const ToyCollection toy = toy_collection(comm, 6, parts, 6, 77);
-    const std::vector<ChoiceDescriptor> descriptors = {
-        {segment_histograms(toy), {.pooled = 15.0, .per_mesh = 20.0}}};
+    const std::vector<ChoiceDescriptor> descriptors =
+        segment_descriptors(toy, {.pooled = 15.0, .per_mesh = 20.0});
     CutOptions options;
     options.starts = pooled_starts(2);
     options.spectral.mesh_balance = 0.3;

@@ -18,7 +18,7 @@ struct TiedPatches {
     TiedPatches(int meshes, int patches_of_mesh, int parts, std::uint64_t seed) {
         const int patches = meshes * patches_of_mesh;
         SeededStream random(seed);
-        objective.deviations = Eigen::MatrixXf::Zero(1, patches);
+        objective.deviations = PatchDeviations(Eigen::MatrixXf::Zero(1, patches));
         objective.per_mesh = objective.pooled = Eigen::VectorXf::Zero(1);
         objective.ties.resize(at(patches));
         objective.area.assign(at(patches), 1.0);
@@ -124,7 +124,8 @@ TEST(PartExpansion, NeverLowersTheScoreThatItClimbs) {
 TEST(PartExpansion, ASmallPatchGoesWhereItExplainsMost) {
     const Comm comm(MPI_COMM_WORLD);
     PartitionObjective objective;
-    objective.deviations = (Eigen::MatrixXf(1, 5) << 1.0F, 1.0F, -1.0F, -1.0F, 1e-4F).finished();
+    Eigen::MatrixXf deviations = (Eigen::MatrixXf(1, 5) << 1.0F, 1.0F, -1.0F, -1.0F, 1e-4F).finished();
+    objective.deviations = PatchDeviations(deviations);
     objective.per_mesh = objective.pooled = Eigen::VectorXf::Ones(1);
     objective.ties.resize(5);
     objective.mesh_of.assign(5, 0);
@@ -137,7 +138,8 @@ TEST(PartExpansion, ASmallPatchGoesWhereItExplainsMost) {
         << "with inertia it stays";
     EXPECT_EQ(expand_parts(comm, objective, {}, {0, 0, 1, 1, 1}, 2, 1e-9), (std::vector<int>{0, 0, 1, 1, 0}));
     objective.share.back() = 0.0;
-    objective.deviations(0, 4) = -1e-4F;
+    deviations(0, 4) = -1e-4F;
+    objective.deviations = PatchDeviations(deviations);
     EXPECT_EQ(expand_parts(comm, objective, {}, {0, 0, 1, 1, 0}, 2), (std::vector<int>{0, 0, 1, 1, 1}));
 }
 

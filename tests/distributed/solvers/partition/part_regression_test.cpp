@@ -151,7 +151,7 @@ TEST(LabelledParts, TakeTheLabelsThatSuitThemBestEachAnother) {
 /// Four patches of two meshes, of which the first is known to be 0, 1; nothing else speaks for any labels.
 TEST(BaseChoice, TakesWhatHasTheKnownLabelsRightAgainstBetterScoresElsewhere) {
     PartitionObjective objective;
-    objective.deviations = Eigen::MatrixXf::Zero(1, 4);
+    objective.deviations = PatchDeviations(Eigen::MatrixXf::Zero(1, 4));
     objective.per_mesh = objective.pooled = Eigen::VectorXf::Zero(1);
     objective.ties.resize(4);
     objective.mesh_of = {0, 0, 1, 1};

@@ -33,7 +33,7 @@ double cost_of_boundary(const Collection& collection) {
                                .coefficients = none,
                                .patch_area = {},
                                .positions = {},
-                               .choice = {},
+                               .choice_weights = {},
                                .histograms = {},
                                .examples = nullptr};
     std::vector<int> labels;

@@ -10,7 +10,7 @@ namespace {
 /// Four patches of one mesh; patch 0 has ties to 1 and, three times as strong, to 2. Patch 3 has none.
 PartitionObjective tied_patches() {
     PartitionObjective objective;
-    objective.deviations = Eigen::MatrixXf::Zero(1, 4);
+    objective.deviations = PatchDeviations(Eigen::MatrixXf::Zero(1, 4));
     objective.per_mesh = objective.pooled = Eigen::VectorXf::Ones(1);
     objective.ties = {{{1, 1.0}, {2, 3.0}}, {{0, 1.0}}, {{0, 3.0}}, {}};
     objective.mesh_of = {0, 0, 0, 0};
@@ -37,7 +37,7 @@ TEST(PartConfidence, GrowsWithWhatThePatchGainsMoreThanInTheNextBestPart) {
     std::vector<double> c = part_confidence(objective, known, {0, 0, 1, 1}, 3);
     EXPECT_NEAR(c[3], logistic(-7.84 + 10.0 + 1.26 * std::tanh(11.0 * 2.5 / 60.0)), 1e-12);
     // Two patches that differ from two others.
-    objective.deviations << 1.0F, 1.0F, -1.0F, -2.0F;
+    objective.deviations = PatchDeviations(Eigen::RowVector4f(1.0F, 1.0F, -1.0F, -2.0F));
     c = part_confidence(objective, {}, {0, 0, 1, 1}, 2);
     // Patch 3 in part 1 (sum -3, area 3) and in part 0 (sum 2, area 2), both norms counted.
     const double in_one = 2.0 * (2.0 * 6.0 / 3.0 - 2.0 * 9.0 / 9.0);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "solvers/partition/cluster_merging.hpp"
 #include "solvers/partition/part_exchange.hpp"
@@ -21,6 +22,7 @@ struct RandomCollection {
     static constexpr int patches = meshes * patches_of_mesh;
     std::vector<GlobalPatchNeighbors> neighbors;
     std::vector<GlobalPatchOverlap> overlaps;
+    std::array<Eigen::MatrixXd, 2> histograms = {Eigen::MatrixXd(3, patches), Eigen::MatrixXd(2, patches)};
     std::vector<ChoiceDescriptor> descriptors;
     std::vector<int> mesh_of;
     std::vector<double> area;
@@ -29,14 +31,13 @@ struct RandomCollection {
 
     explicit RandomCollection(std::uint64_t seed) {
         SeededStream random(seed);
-        descriptors = {{Eigen::MatrixXf(3, patches), {.pooled = 7.0, .per_mesh = 11.0}},
-                       {Eigen::MatrixXf(2, patches), {.pooled = 5.0, .per_mesh = 0.0}}};
+        descriptors.push_back({patch_columns(histograms[0]), {.pooled = 7.0, .per_mesh = 11.0}});
+        descriptors.push_back({patch_columns(histograms[1]), {.pooled = 5.0, .per_mesh = 0.0}});
         for (int i = 0; i < patches; ++i) {
             mesh_of.push_back(i / patches_of_mesh);
             area.push_back(0.2 + random.uniform());
-            for (ChoiceDescriptor& d : descriptors) {
-                for (Eigen::Index r = 0; r < d.histograms.rows(); ++r)
-                    d.histograms(r, i) = static_cast<float>(random.uniform() + mesh_of.back());
+            for (Eigen::MatrixXd& x : histograms) {
+                for (Eigen::Index r = 0; r < x.rows(); ++r) x(r, i) = random.uniform() + mesh_of.back();
             }
         }
         std::vector<SparseEntry> entries;
@@ -150,8 +151,7 @@ TEST(PartitionSearch, ClustersOfTrueSegmentsAreMergedIntoThem) {
     for (int i = 0; i < RandomCollection::patches; ++i) {
         truth.push_back(i % 12 / 4);
         clusters.push_back(3 * (i % 3) + truth.back());
-        for (Eigen::Index r = 0; r < 3; ++r)
-            c.descriptors[0].histograms(r, i) = r == truth.back() ? 1.0F : 0.0F;
+        for (Eigen::Index r = 0; r < 3; ++r) c.histograms[0](r, i) = r == truth.back() ? 1.0 : 0.0;
     }
     const std::vector<int> part_of =
         merge_clusters(cluster_sums(partition_objective(c.evidence(), c.weights), clusters, 9), 3).front();
@@ -171,7 +171,7 @@ TEST(PartitionSearch, APartOfASingleMeshIsGivenUpForOneThatAllMeshesHave) {
         clusters.push_back(i == 30 ? 3 : run);
         for (Eigen::Index r = 0; r < 3; ++r) {
             const float of_run = r == 0 && run == 0 ? 1.0F : (r == 1 && run == 1 ? 0.05F : 0.0F);
-            c.descriptors[0].histograms(r, i) = i == 30 && r == 2 ? 9.0F : of_run;
+            c.histograms[0](r, i) = i == 30 && r == 2 ? 9.0 : of_run;
         }
     }
     const ClusterSums sums = cluster_sums(partition_objective(c.evidence(), c.weights), clusters, 4);
@@ -229,9 +229,9 @@ TEST(PartitionSearch, MovesOfPatchesRaiseTheScoreAndKeepEveryPart) {
 TEST(PartitionSearch, DescriptorsOfNoSpreadAndMeshesWithoutOverlapsAddNothing) {
     RandomCollection c(4);
     c.overlaps.clear();
-    for (ChoiceDescriptor& d : c.descriptors) d.histograms.setConstant(2.0F);
+    for (Eigen::MatrixXd& x : c.histograms) x.setConstant(2.0);
     const PartitionObjective objective = partition_objective(c.evidence(), c.weights);
-    EXPECT_TRUE(objective.deviations.isZero());
+    EXPECT_TRUE(objective.deviations.matrix().isZero());
     const std::vector<int> clusters = random_labels(5, 4);
     const ClusterSums sums = cluster_sums(objective, clusters, 5);
     const std::vector<int> first = {0, 1, 0, 1, 0};
@@ -269,7 +269,7 @@ TEST(PartitionSearch, AnExchangeMendsTheMeshWhosePartsAreSwapped) {
     RandomCollection c(1);
     const std::vector<int> right = random_labels(3, 8);
     for (int i = 0; i < RandomCollection::patches; ++i)
-        c.descriptors[0].histograms.col(i) = 4.0F * Eigen::Vector3f::Unit(right[at(i)]);
+        c.histograms[0].col(i) = 4.0 * Eigen::Vector3d::Unit(right[at(i)]);
     const std::vector<int> wrong = renamed_in(c, right, 2, {1, 2, 0});
     EXPECT_EQ(exchange_parts(partition_objective(c.evidence(), c.weights), wrong, 3), right);
 }
