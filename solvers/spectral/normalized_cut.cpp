@@ -2,6 +2,8 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "src/base/index.hpp"
 
@@ -12,38 +14,45 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-MatrixXd unit_rows(const MatrixXd& coordinates, int columns) {
-    MatrixXd rows = coordinates.leftCols(columns);
-    for (Index r = 0; r < rows.rows(); ++r) {
-        const double norm = rows.row(r).norm();
-        if (norm > 0.0) rows.row(r) /= norm;
+/// K x N: the first K coordinates of each row of the embedding, scaled to unit length.
+MatrixXd unit_points(const MatrixXd& coordinates, int clusters) {
+    MatrixXd points = coordinates.leftCols(clusters).transpose();
+    for (Index r = 0; r < points.cols(); ++r) {
+        const double norm = points.col(r).norm();
+        if (norm > 0.0) points.col(r) /= norm;
     }
-    return rows;
+    return points;
 }
 
-/// Columns: rows of `points` that are as far apart, as nearly orthogonal, as a greedy choice finds them.
-MatrixXd distant_rows(const MatrixXd& points, Index first) {
-    const Index clusters = points.cols();
+/// Columns: points that are as far apart, as nearly orthogonal, as a greedy choice finds them.
+MatrixXd distant_points(const MatrixXd& points, Index first) {
+    const Index clusters = points.rows();
     MatrixXd rotation(clusters, clusters);
-    Eigen::VectorXd closeness = Eigen::VectorXd::Zero(points.rows());
+    Eigen::VectorXd closeness = Eigen::VectorXd::Zero(points.cols());
     Index chosen = first;
     for (Index k = 0; k < clusters; ++k) {
-        rotation.col(k) = points.row(chosen).transpose();
-        closeness += (points * rotation.col(k)).cwiseAbs();
+        rotation.col(k) = points.col(chosen);
+        for (Index r = 0; r < points.cols(); ++r)
+            closeness[r] += std::abs(points.col(r).dot(rotation.col(k)));
         closeness.minCoeff(&chosen);
     }
     return rotation;
 }
 
-std::vector<int> nearest_axes(const MatrixXd& points, const MatrixXd& rotation) {
-    const MatrixXd turned = points * rotation;
-    std::vector<int> labels(at(points.rows()));
-    for (Index r = 0; r < points.rows(); ++r) {
-        Index axis = 0;
-        turned.row(r).maxCoeff(&axis);
-        labels[at(r)] = static_cast<int>(axis);
+/// Some points at a time: turned points of hundreds of megabytes would be new memory in every round, which
+/// takes longer to get than to fill.
+void find_nearest_axes(const MatrixXd& points, const MatrixXd& rotation, std::vector<int>& labels) {
+    constexpr Index at_once = 512;
+    MatrixXd turned(points.rows(), at_once);
+    for (Index begin = 0; begin < points.cols(); begin += at_once) {
+        const Index count = std::min(at_once, points.cols() - begin);
+        turned.leftCols(count).noalias() = rotation.transpose() * points.middleCols(begin, count);
+        for (Index r = 0; r < count; ++r) {
+            Index axis = 0;
+            turned.col(r).maxCoeff(&axis);
+            labels[at(begin + r)] = static_cast<int>(axis);
+        }
     }
-    return labels;
 }
 
 /// The rotation V U^T of a matrix U S V^T. Jacobi's method takes sweep after sweep over all pairs of columns,
@@ -58,24 +67,25 @@ MatrixXd rotation_of(const MatrixXd& sums) {
 
 /// The rotation that brings the points closest to the axes of their labels.
 MatrixXd best_rotation(const MatrixXd& points, const std::vector<int>& labels) {
-    const Index clusters = points.cols();
+    const Index clusters = points.rows();
     MatrixXd sums = MatrixXd::Zero(clusters, clusters);
-    for (Index r = 0; r < points.rows(); ++r) sums.row(labels[at(r)]) += points.row(r);
-    return rotation_of(sums);
+    for (Index r = 0; r < points.cols(); ++r) sums.col(labels[at(r)]) += points.col(r);
+    return rotation_of(sums.transpose());
 }
 
 }  // namespace
 
 std::vector<int> discretize(const SpectralEmbedding& embedding, int clusters) {
     constexpr int max_rounds = 200;
-    const MatrixXd points = unit_rows(embedding.coordinates, clusters);
+    const MatrixXd points = unit_points(embedding.coordinates, clusters);
     const auto heaviest = std::max_element(embedding.degrees.begin(), embedding.degrees.end());
-    std::vector<int> labels =
-        nearest_axes(points, distant_rows(points, heaviest - embedding.degrees.begin()));
+    std::vector<int> labels(at(points.cols()), 0);
+    std::vector<int> next = labels;
+    find_nearest_axes(points, distant_points(points, heaviest - embedding.degrees.begin()), labels);
     for (int round = 0; round < max_rounds; ++round) {
-        std::vector<int> next = nearest_axes(points, best_rotation(points, labels));
+        find_nearest_axes(points, best_rotation(points, labels), next);
         if (next == labels) break;
-        labels = std::move(next);
+        std::swap(labels, next);
     }
     return labels;
 }
