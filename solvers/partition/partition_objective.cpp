@@ -95,7 +95,7 @@ Eigen::Index dimension(const PartitionEvidence& evidence) {
 
 /// Writes the deviations of every descriptor whose number is `first` and a multiple of `step`.
 void write_deviations(const PartitionEvidence& evidence, std::size_t first, std::size_t step,
-                      Eigen::Map<Eigen::MatrixXf> deviations) {
+                      const Eigen::Map<Eigen::MatrixXf>& deviations) {
     const std::vector<double> mesh_area = mesh_areas(evidence, mesh_count(evidence));
     Eigen::Index row = 0;
     for (std::size_t h = 0; h < evidence.descriptors.size(); ++h) {

@@ -18,7 +18,7 @@ struct PatchTie {
     double gain = 0.0;  ///< >= 0
 };
 
-/// D x N numbers in single precision, column major: of one rank, or of which the ranks of a node hold one copy
+/// D x N numbers in single precision, column major: of one rank, or held once by the ranks of a node
 /// together. Copies are handles of the same values.
 class PatchDeviations {
   public:
@@ -69,8 +69,8 @@ struct PartitionObjective {
 /// In the memory of this rank alone.
 PartitionObjective partition_objective(const PartitionEvidence& evidence, const ChoiceWeights& weights);
 
-/// The same, with deviations that a node holds once. `evidence` is the same on all ranks. Collective; the last
-/// handle of the deviations must be destroyed at the same place on all ranks of a node.
+/// The same, with deviations that a node holds once. `evidence` is the same on all ranks. Collective; the
+/// last handle of the deviations must be destroyed at the same place on all ranks of a node.
 PartitionObjective partition_objective(const Comm& comm, const PartitionEvidence& evidence,
                                        const ChoiceWeights& weights);
 
