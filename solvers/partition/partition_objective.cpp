@@ -93,7 +93,7 @@ Eigen::Index dimension(const PartitionEvidence& evidence) {
     return rows;
 }
 
-/// Writes the deviations of every descriptor whose number is `first` and a multiple of `step`.
+/// Writes the deviations of the descriptors first, first + step, first + 2 step, ...
 void write_deviations(const PartitionEvidence& evidence, std::size_t first, std::size_t step,
                       const Eigen::Map<Eigen::MatrixXf>& deviations) {
     const std::vector<double> mesh_area = mesh_areas(evidence, mesh_count(evidence));
