@@ -77,7 +77,7 @@ void apply_minima_rule(SparseRows& affinity, const std::vector<GlobalPatchNeighb
 
 SparseRows adjacency_affinity(BlockRange range, const std::vector<GlobalPatchNeighbors>& neighbors,
                               const std::vector<int>& mesh_of) {
-    const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
+    const int meshes = mesh_count(mesh_of);
     std::vector<double> mesh_total(at(meshes), 0.0);
     const auto mesh = [&](const GlobalPatchNeighbors& pair) { return at(mesh_of[at(pair.patch_a)]); };
     for (const GlobalPatchNeighbors& pair : neighbors) mesh_total[mesh(pair)] += 2.0 * adjacency_weight(pair);

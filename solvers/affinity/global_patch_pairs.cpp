@@ -61,6 +61,10 @@ std::vector<GlobalPatchOverlap> gather_patch_pairs(const Comm& comm,
     return gathered(comm, local, patches);
 }
 
+int mesh_count(const std::vector<int>& mesh_of) {
+    return mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
+}
+
 std::vector<std::vector<WeightedNeighbor>> weighted_neighbors(const std::vector<GlobalPatchNeighbors>& pairs,
                                                               int patches) {
     std::vector<std::vector<WeightedNeighbor>> of(at(patches));

@@ -45,6 +45,9 @@ std::vector<GlobalPatchNeighbors> gather_patch_pairs(const Comm& comm,
 std::vector<GlobalPatchOverlap> gather_patch_pairs(const Comm& comm,
                                                    const std::vector<GlobalPatchOverlap>& local, int patches);
 
+/// How many meshes there are, from the mesh of each patch: 0 .. M-1.
+int mesh_count(const std::vector<int>& mesh_of);
+
 /// A neighbour of a patch.
 struct WeightedNeighbor {
     int patch = 0;

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <numeric>
 
+#include "solvers/affinity/global_patch_pairs.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {
 
 Eigen::MatrixXd area_shares(const std::vector<int>& labels, int parts, const std::vector<double>& patch_area,
                             const std::vector<int>& mesh_of) {
-    const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
+    const int meshes = mesh_count(mesh_of);
     Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(parts, meshes);
     std::vector<double> mesh_area(at(meshes), 0.0);
     for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -20,11 +20,6 @@ PatchDeviations::PatchDeviations(std::shared_ptr<const float> values, Eigen::Ind
 
 namespace {
 
-int mesh_count(const PartitionEvidence& evidence) {
-    const std::vector<int>& mesh_of = evidence.mesh_of;
-    return mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
-}
-
 std::vector<double> mesh_areas(const PartitionEvidence& evidence, int meshes) {
     std::vector<double> areas(at(meshes), 0.0);
     for (std::size_t i = 0; i < evidence.mesh_of.size(); ++i)
@@ -96,7 +91,7 @@ Eigen::Index dimension(const PartitionEvidence& evidence) {
 /// Writes the deviations of the descriptors first, first + step, first + 2 step, ...
 void write_deviations(const PartitionEvidence& evidence, std::size_t first, std::size_t step,
                       const Eigen::Map<Eigen::MatrixXf>& deviations) {
-    const std::vector<double> mesh_area = mesh_areas(evidence, mesh_count(evidence));
+    const std::vector<double> mesh_area = mesh_areas(evidence, mesh_count(evidence.mesh_of));
     Eigen::Index row = 0;
     for (std::size_t h = 0; h < evidence.descriptors.size(); ++h) {
         const PatchColumns& x = evidence.descriptors[h].histograms;
@@ -137,7 +132,7 @@ void weigh_rows(const PartitionEvidence& evidence, PartitionObjective& objective
 PartitionObjective objective_of(const PartitionEvidence& evidence, const ChoiceWeights& weights,
                                 PatchDeviations deviations) {
     const std::vector<int>& mesh_of = evidence.mesh_of;
-    const int meshes = mesh_count(evidence);
+    const int meshes = mesh_count(evidence.mesh_of);
     const std::vector<double> mesh_area = mesh_areas(evidence, meshes);
     PartitionObjective objective;
     objective.deviations = std::move(deviations);

@@ -18,7 +18,7 @@ struct HistogramSums {
 
 HistogramSums sums_of_parts(const PatchColumns& histograms, const std::vector<int>& labels, int parts,
                             const std::vector<double>& patch_area, const std::vector<int>& mesh_of) {
-    const int meshes = mesh_of.empty() ? 0 : *std::max_element(mesh_of.begin(), mesh_of.end()) + 1;
+    const int meshes = mesh_count(mesh_of);
     HistogramSums sums{Eigen::MatrixXd::Zero(histograms.rows(), Eigen::Index{parts} * meshes),
                        Eigen::MatrixXd::Zero(parts, meshes)};
     for (std::size_t i = 0; i < labels.size(); ++i) {

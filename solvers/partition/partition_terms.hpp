@@ -7,12 +7,13 @@
 
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
+#include "src/histograms/feature_matrices.hpp"
 #include "src/records/start_outcome.hpp"
 
 namespace coseg {
 
-/// Numbers of all patches, one column each, column major, where they lie.
-using PatchColumns = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+/// Numbers of all patches, one column each, column major, where they lie: in features or another matrix.
+using PatchColumns = FeatureMatrices::ConstBlock;
 
 /// All columns of a matrix in double, which must outlive the result.
 template <class Matrix>

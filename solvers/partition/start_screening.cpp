@@ -130,7 +130,7 @@ std::vector<CutStart> of_best_graphs(const std::vector<CutStart>& starts,
 std::vector<CutStart> promising_starts(const Comm& comm, const ClusteringTask& whole,
                                        const PartitionEvidence& evidence, const ChoiceWeights& weights,
                                        StartScreening screening) {
-    const int meshes = evidence.mesh_of.empty() ? 0 : evidence.mesh_of.back() + 1;
+    const int meshes = mesh_count(evidence.mesh_of);
     if (whole.starts.size() == 1 || meshes < 2 * screening.meshes) return whole.starts;
     const MeshSample sample = mesh_sample(evidence.mesh_of, meshes, screening.meshes);
     const SampledEvidence seen = sampled_evidence(sample, evidence, whole.graphs.positions);
