@@ -70,6 +70,7 @@ struct Stage {
 struct Mesh {
     coseg::TriMesh surface;
     coseg::FaceGeometry geometry;
+    Eigen::Matrix3Xd normals;
     coseg::DualGraph dual;
 };
 
@@ -77,13 +78,14 @@ Mesh prepared(const std::string& path) {
     Mesh mesh;
     mesh.surface = coseg::repair(coseg::read_mesh(path), path).mesh;
     mesh.geometry = coseg::face_geometry(mesh.surface);
+    mesh.normals = coseg::face_normals(mesh.surface);
     mesh.dual = coseg::dual_graph(mesh.surface, mesh.geometry);
     return mesh;
 }
 
 RTCRayHit16 packet_of(const Mesh& mesh, int face, const coseg::RayCone& cone, int first) {
     RTCRayHit16 packet{};
-    const Eigen::Vector3d inward = -mesh.geometry.normal.col(face);
+    const Eigen::Vector3d inward = -mesh.normals.col(face);
     const Eigen::Vector3d u = inward.unitOrthogonal();
     Eigen::Matrix3d frame;
     frame << u, inward.cross(u), inward;
@@ -246,7 +248,8 @@ void measure(const coseg::Comm& comm, const std::vector<std::string>& paths) {
         const Mesh mesh = prepared(path);
         faces += mesh.surface.face_count();
         add_shape_diameter(mesh, diameter);
-        contexts.push_back(coseg::shape_context(add_geodesics(mesh, geodesics), mesh.geometry));
+        contexts.push_back(
+            coseg::shape_context(add_geodesics(mesh, geodesics), mesh.geometry.centroid, mesh.normals));
         add_oversegmentation(mesh, patches_stage);
     }
     add_words(comm, contexts, words_stage);

@@ -44,7 +44,9 @@ std::vector<Descriptor> made_table() {
          .weight = 2.0,
          .shared = SharedPart::geodesics,
          .step = "contexts",
-         .values = [](Context& c) -> FaceValues { return shape_context(c.geodesics(), c.geometry()); },
+         .values = [](Context& c) -> FaceValues {
+             return shape_context(c.geodesics(), c.geometry().centroid, face_normals(c.mesh()));
+         },
          .shown = shape_context_rings},
         {.name = "conformal_factor",
          .phrase = "conformal factor",

@@ -27,23 +27,24 @@ struct CurvatureMeasure {
 };
 
 /// Signed angle from the normal of the first side's face to that of the second; positive over a convex edge.
-double turn(const TriMesh& mesh, const FaceGeometry& geometry, const HalfEdge& x, const HalfEdge& y) {
+double turn(const TriMesh& mesh, const Eigen::Matrix3Xd& normals, const HalfEdge& x, const HalfEdge& y) {
     Eigen::Vector3d along = mesh.vertices.col(x.high) - mesh.vertices.col(x.low);
     if (!x.forward) along = -along;
-    const Eigen::Vector3d first = geometry.normal.col(x.face);
-    const Eigen::Vector3d second = geometry.normal.col(y.face);
+    const Eigen::Vector3d first = normals.col(x.face);
+    const Eigen::Vector3d second = normals.col(y.face);
     return std::atan2(first.cross(second).dot(along.normalized()), first.dot(second));
 }
 
 /// Each vertex takes half of the edges and a third of the faces around it.
 std::vector<CurvatureMeasure> vertex_measures(const TriMesh& mesh, const FaceGeometry& geometry,
                                               const std::vector<HalfEdge>& sides) {
+    const Eigen::Matrix3Xd normals = face_normals(mesh);
     std::vector<CurvatureMeasure> measure(at(mesh.vertex_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
         for (int k = 0; k < 3; ++k) {
             CurvatureMeasure& m = measure[at(mesh.faces(k, f))];
             m.area += geometry.area[f] / 3.0;
-            m.area_normal += geometry.area[f] / 3.0 * geometry.normal.col(f);
+            m.area_normal += geometry.area[f] / 3.0 * normals.col(f);
         }
     }
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
@@ -52,7 +53,7 @@ std::vector<CurvatureMeasure> vertex_measures(const TriMesh& mesh, const FaceGeo
         const double length = edge.norm();
         if (!(length > 0.0)) continue;
         const Eigen::Matrix3d half =
-            0.5 * turn(mesh, geometry, sides[i], sides[i + 1]) / length * edge * edge.transpose();
+            0.5 * turn(mesh, normals, sides[i], sides[i + 1]) / length * edge * edge.transpose();
         measure[at(sides[i].low)].tensor += half;
         measure[at(sides[i].high)].tensor += half;
     }

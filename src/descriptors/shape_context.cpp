@@ -22,13 +22,14 @@ struct SamplePoints {
     Eigen::MatrixX3f inward;
 };
 
-SamplePoints sample_points(const GeodesicTable& table, const FaceGeometry& geometry) {
+SamplePoints sample_points(const GeodesicTable& table, const Eigen::Matrix3Xd& centroids,
+                           const Eigen::Matrix3Xd& normals) {
     const auto samples = static_cast<Eigen::Index>(table.sample_face.size());
     SamplePoints points{Eigen::MatrixX3f(samples, 3), Eigen::MatrixX3f(samples, 3)};
     for (Eigen::Index k = 0; k < samples; ++k) {
         const int face = table.sample_face[at(k)];
-        points.centroid.row(k) = geometry.centroid.col(face).transpose().cast<float>();
-        points.inward.row(k) = -geometry.normal.col(face).transpose().cast<float>();
+        points.centroid.row(k) = centroids.col(face).transpose().cast<float>();
+        points.inward.row(k) = -normals.col(face).transpose().cast<float>();
     }
     return points;
 }
@@ -132,10 +133,10 @@ void write_contexts(const BinPair& bin, const Eigen::VectorXd& weight, ShapeCont
 
 }  // namespace
 
-Eigen::MatrixXf shape_context(const GeodesicTable& table, const FaceGeometry& geometry,
-                              ShapeContextNormal normal) {
+Eigen::MatrixXf shape_context(const GeodesicTable& table, const Eigen::Matrix3Xd& centroids,
+                              const Eigen::Matrix3Xd& normals, ShapeContextNormal normal) {
     const Eigen::Index samples = table.distance.rows();
-    const SamplePoints points = sample_points(table, geometry);
+    const SamplePoints points = sample_points(table, centroids, normals);
     const Thresholds thresholds{radial_thresholds(table), cosine_thresholds()};
     const bool both = normal == ShapeContextNormal::both;
     const float scale = both ? 0.5F : 1.0F;
@@ -144,8 +145,7 @@ Eigen::MatrixXf shape_context(const GeodesicTable& table, const FaceGeometry& ge
     BinPair bin{Eigen::VectorXi(samples), Eigen::VectorXi(samples)};
     Eigen::MatrixXf contexts(both ? 2 * shape_context_bins : shape_context_bins, table.distance.cols());
     for (Eigen::Index f = 0; f < contexts.cols(); ++f) {
-        project_samples(points, geometry.centroid.col(f).cast<float>(), -geometry.normal.col(f).cast<float>(),
-                        projections);
+        project_samples(points, centroids.col(f).cast<float>(), -normals.col(f).cast<float>(), projections);
         radial_bins(thresholds, table.distance.data() + f * samples, samples, radial.data());
         add_angle_bins(thresholds, projections.on_face.data(), projections.length.data(), samples,
                        radial.data(), bin[0].data());

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "src/geodesics/geodesic.hpp"
-#include "src/mesh/face_geometry.hpp"
 
 namespace coseg {
 
@@ -44,7 +43,8 @@ enum class ShapeContextNormal {
 /// area alone, and both normals are used. As the only feature (100 words, 50 patches a mesh, the best match
 /// in every other mesh votes; mean area of six sets) `both` carried .858 of the labels over rightly, `sample`
 /// .850, `face` .842; `face` alone was best on chairs, `sample` alone on pliers.
-Eigen::MatrixXf shape_context(const GeodesicTable& table, const FaceGeometry& geometry,
+Eigen::MatrixXf shape_context(const GeodesicTable& table, const Eigen::Matrix3Xd& centroids,
+                              const Eigen::Matrix3Xd& normals,
                               ShapeContextNormal normal = ShapeContextNormal::both);
 
 /// One number for each of the columns of shape contexts: the mean ring of its area, 0 where all of the shape

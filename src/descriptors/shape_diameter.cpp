@@ -172,12 +172,13 @@ Eigen::VectorXd shape_diameter_raw(const TriMesh& mesh, const FaceGeometry& geom
     Eigen::VectorXd thickness = Eigen::VectorXd::Zero(mesh.face_count());
     if (mesh.face_count() == 0) return thickness;
     const InsideRays rays(mesh);
+    const Eigen::Matrix3Xd normals = face_normals(mesh);
     const RayCone cone = shape_diameter_cone();
     std::array<double, shape_diameter_rays> lengths{};
     const int step = std::max(1, static_cast<int>(std::ceil(boxes_a_line(mesh) / most_boxes_a_line)));
     for (int f = 0; f < mesh.face_count(); f += step) {
         if (!(geometry.area[f] > 0.0)) continue;
-        const Eigen::Matrix3Xd directions = face_frame(mesh, f, geometry.normal.col(f)) * cone.directions;
+        const Eigen::Matrix3Xd directions = face_frame(mesh, f, normals.col(f)) * cone.directions;
         rays.cast(geometry.centroid.col(f), directions, lengths);
         thickness[f] = robust_mean(lengths, cone.angles);
     }

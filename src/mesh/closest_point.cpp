@@ -48,9 +48,8 @@ double squared_distance_to_box(const Vector3d& p, const Vector3d& low, const Vec
 
 ClosestPointTree::ClosestPointTree(const TriMesh& mesh) : mesh_(mesh) {
     if (mesh.face_count() == 0) throw Error(ExitCode::input, "a mesh without faces has no nearest point");
-    FaceGeometry geometry = face_geometry(mesh);
-    normals_ = std::move(geometry.normal);
-    centroids_ = std::move(geometry.centroid);
+    normals_ = face_normals(mesh);
+    centroids_ = face_geometry(mesh).centroid;
     order_.resize(at(mesh.face_count()));
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.reserve(order_.size());
@@ -132,10 +131,11 @@ ClosestPoint ClosestPointTree::nearest(const Vector3d& point, const Vector3d& no
 
 std::vector<int> nearest_faces(const TriMesh& of, const TriMesh& on) {
     const ClosestPointTree tree(on);
-    const FaceGeometry geometry = face_geometry(of);
+    const Eigen::Matrix3Xd centroids = face_geometry(of).centroid;
+    const Eigen::Matrix3Xd normals = face_normals(of);
     std::vector<int> faces(at(of.face_count()));
     for (int f = 0; f < of.face_count(); ++f) {
-        faces[f] = tree.nearest(geometry.centroid.col(f), geometry.normal.col(f)).face;
+        faces[f] = tree.nearest(centroids.col(f), normals.col(f)).face;
     }
     return faces;
 }

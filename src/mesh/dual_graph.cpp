@@ -25,12 +25,13 @@ double outer_dihedral(const Eigen::Vector3d& n_first, const Eigen::Vector3d& n_s
     return std::numbers::pi + std::atan2(sine, cosine);
 }
 
-DualEdge make_edge(const TriMesh& mesh, const FaceGeometry& geometry, const HalfEdge& x, const HalfEdge& y) {
+DualEdge make_edge(const TriMesh& mesh, const Eigen::Matrix3Xd& normals, const HalfEdge& x,
+                   const HalfEdge& y) {
     DualEdge edge{.face_a = x.face, .face_b = y.face, .vertex_a = x.low, .vertex_b = x.high};
     Eigen::Vector3d along = mesh.vertices.col(x.high) - mesh.vertices.col(x.low);
     edge.length = along.norm();
     if (!x.forward) along = -along;
-    edge.dihedral = outer_dihedral(geometry.normal.col(x.face), geometry.normal.col(y.face), along);
+    edge.dihedral = outer_dihedral(normals.col(x.face), normals.col(y.face), along);
     return edge;
 }
 
@@ -41,12 +42,14 @@ void sort_edges(std::vector<DualEdge>& edges) {
     });
 }
 
-std::vector<DualEdge> mesh_edges(const TriMesh& mesh, const FaceGeometry& geometry) {
-    std::vector<DualEdge> edges;
+std::vector<DualEdge> mesh_edges(const TriMesh& mesh) {
     const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh);
+    const Eigen::Matrix3Xd normals = face_normals(mesh);
+    std::vector<DualEdge> edges;
+    edges.reserve(half_edges.size() / 2);
     for (std::size_t i = 0; i + 1 < half_edges.size(); ++i) {
         if (share_edge(half_edges[i], half_edges[i + 1])) {
-            edges.push_back(make_edge(mesh, geometry, half_edges[i], half_edges[i + 1]));
+            edges.push_back(make_edge(mesh, normals, half_edges[i], half_edges[i + 1]));
         }
     }
     sort_edges(edges);
@@ -65,6 +68,7 @@ void join_components(DualGraph& graph, const FaceGeometry& geometry) {
     const int count = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
     if (count <= 1) return;
     const double length = virtual_length(geometry);
+    graph.edges.reserve(graph.edges.size() + at(count - 1));
     for (const PointJoin& join : spanning_joins(geometry.centroid, component, count)) {
         graph.edges.push_back({.face_a = join.point_a,
                                .face_b = join.point_b,
@@ -97,7 +101,7 @@ void index_incidence(DualGraph& graph) {
 DualGraph dual_graph(const TriMesh& mesh, const FaceGeometry& geometry) {
     DualGraph graph;
     graph.face_count = mesh.face_count();
-    graph.edges = mesh_edges(mesh, geometry);
+    graph.edges = mesh_edges(mesh);
     index_incidence(graph);
     join_components(graph, geometry);
     return graph;

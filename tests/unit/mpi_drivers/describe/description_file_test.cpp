@@ -61,7 +61,6 @@ void expect_same(const DescribedMesh& made, const DescribedMesh& read) {
     EXPECT_EQ(a.map.label_donor, b.map.label_donor);
     EXPECT_EQ(a.map.nearest_working, b.map.nearest_working);
     EXPECT_EQ(a.geometry.area, b.geometry.area);
-    EXPECT_EQ(a.geometry.normal, b.geometry.normal);
     EXPECT_EQ(a.geometry.centroid, b.geometry.centroid);
     EXPECT_EQ(a.geometry.total_area, b.geometry.total_area);
     EXPECT_EQ(a.graph.face_count, b.graph.face_count);

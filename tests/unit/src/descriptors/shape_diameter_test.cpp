@@ -118,11 +118,12 @@ TEST(ShapeDiameter, OfASlabIsItsThickness) {
     const Eigen::VectorXd found = shape_diameter_raw(mesh, geometry);
     const double expected = thickness * mean_of_cone([](double angle) { return 1.0 / std::cos(angle); });
     EXPECT_NEAR(expected / thickness, 1.3, 0.03);
+    const Eigen::Matrix3Xd normals = face_normals(mesh);
     int in_middle = 0;
     for (int f = 0; f < mesh.face_count(); ++f) {
         const Eigen::Vector3d c = geometry.centroid.col(f);
         const bool middle = (c.head<2>() - Eigen::Vector2d(0.5, 0.5)).cwiseAbs().maxCoeff() < 0.35;
-        if (!middle || std::abs(geometry.normal(2, f)) < 0.5) continue;
+        if (!middle || std::abs(normals(2, f)) < 0.5) continue;
         EXPECT_NEAR(found[f], expected, 1e-4 * expected) << f;
         ++in_middle;
     }
@@ -231,10 +232,10 @@ TEST(ShapeDiameter, OpenFacesTakeTheirNeighboursValue) {
 
 TEST(ShapeDiameter, ABoxWithoutItsLidKeepsValuesEverywhere) {
     TriMesh mesh = test::box(1, 1, 0.2, 10);
-    const FaceGeometry whole = face_geometry(mesh);
+    const Eigen::Matrix3Xd normals = face_normals(mesh);
     std::vector<int> kept;
     for (int f = 0; f < mesh.face_count(); ++f) {
-        if (whole.normal(2, f) < 0.5) kept.push_back(f);
+        if (normals(2, f) < 0.5) kept.push_back(f);
     }
     mesh.faces = Eigen::Matrix3Xi(mesh.faces(Eigen::all, kept));
     const Eigen::VectorXd thickness = raw(mesh);

@@ -29,18 +29,18 @@ TEST(MappedRemesh, BoxOfTwelveTrianglesKeepsItsSidesAndTheWayBack) {
     ASSERT_EQ(map.input_face.size(), static_cast<std::size_t>(mesh.face_count()));
 
     // Labelled by side, every triangle of the box gets the label of its own side back.
-    const FaceGeometry geometry = face_geometry(mesh);
+    const Eigen::Matrix3Xd normals = face_normals(mesh);
     const auto side = [](const Eigen::Vector3d& normal) {
         Eigen::Index axis = 0;
         normal.cwiseAbs().maxCoeff(&axis);
         return static_cast<int>(2 * axis + (normal[axis] > 0.0 ? 1 : 0));
     };
     std::vector<int> labels;
-    for (int f = 0; f < mesh.face_count(); ++f) labels.push_back(side(geometry.normal.col(f)));
-    const std::vector<int> carried = carry_labels_back(map, labels, geometry.area);
-    const FaceGeometry input = face_geometry(box);
+    for (int f = 0; f < mesh.face_count(); ++f) labels.push_back(side(normals.col(f)));
+    const std::vector<int> carried = carry_labels_back(map, labels, face_geometry(mesh).area);
+    const Eigen::Matrix3Xd of_box = face_normals(box);
     ASSERT_EQ(carried.size(), 12U);
-    for (int f = 0; f < 12; ++f) EXPECT_EQ(carried[static_cast<std::size_t>(f)], side(input.normal.col(f)));
+    for (int f = 0; f < 12; ++f) EXPECT_EQ(carried[static_cast<std::size_t>(f)], side(of_box.col(f)));
 }
 
 TEST(MappedRemesh, FacesWithoutANewTriangleTakeTheNearestLabel) {
@@ -52,7 +52,7 @@ TEST(MappedRemesh, FacesWithoutANewTriangleTakeTheNearestLabel) {
     const FaceGeometry geometry = face_geometry(mesh);
     std::vector<int> labels;
     for (int f = 0; f < mesh.face_count(); ++f) labels.push_back(geometry.centroid(2, f) > 0.0 ? 1 : 0);
-    const std::vector<int> carried = carry_labels_back(map, labels, geometry.area);
+    const std::vector<int> carried = carry_labels_back(map, labels, face_geometry(mesh).area);
     double right = 0.0;
     for (Eigen::Index f = 0; f < input.area.size(); ++f) {
         if (carried[static_cast<std::size_t>(f)] == (input.centroid(2, f) > 0.0 ? 1 : 0))

@@ -278,7 +278,7 @@ TEST(MeshRepair, OpenSurfaceKeepsTheSideOfItsLargerPart) {
     PolygonMesh input = as_polygons(test::flat_square(4));
     std::swap(input.corners[0], input.corners[1]);
     const RepairedMesh repaired = repaired_soundly(input);
-    EXPECT_GT(face_geometry(repaired.mesh).normal.row(2).minCoeff(), 0.99);
+    EXPECT_GT(face_normals(repaired.mesh).row(2).minCoeff(), 0.99);
 }
 
 TEST(MeshRepair, MoebiusStripIsCutOnce) {
