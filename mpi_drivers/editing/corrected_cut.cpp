@@ -221,7 +221,7 @@ std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const Corre
                                                    const PatchFeatures& features,
                                                    const SparseCoefficients& coefficients,
                                                    const PartitionOptions& options) {
-    const PartitionInput input = partition_input(base.collection, features, coefficients, options);
+    const PartitionInput input = partition_input(comm, base.collection, features, coefficients, options);
     const std::vector<int> mesh_of = base.collection.numbering.mesh_of();
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(base.collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(base.collection);
@@ -229,7 +229,7 @@ std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const Corre
     return std::make_unique<CorrectedParts>(
         comm,
         CutInput{coefficients, neighbors, overlaps, mesh_of, input.patch_area, choice,
-                 input.known_positions(), nullptr, &features.histograms},
+                 input.known_positions(), nullptr, &input.features},
         cut_options(input, options), base.cut.confidence);
 }
 

@@ -83,24 +83,29 @@ std::vector<ChoiceDescriptor> PartitionInput::choice() const {
     for (std::size_t h = 0; h < choice_weights.size(); ++h) {
         const BetweenPartVariance& weight = choice_weights[h];
         if (weight.pooled > 0.0 || weight.per_mesh > 0.0)
-            descriptors.push_back({h < histograms.size() ? histograms[h] : patch_columns(positions), weight});
+            descriptors.push_back(
+                {h < features.size() ? features[h] : patch_columns(rounded_positions), weight});
     }
     return descriptors;
 }
 
-PartitionInput partition_input(const Collection& collection, PatchFeatures features,
+PartitionInput partition_input(const Comm& comm, const Collection& collection, PatchFeatures features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                const ExampleLabels& examples) {
     std::vector<BetweenPartVariance> weights = choice_weights(collection.numbering, features, options);
+    SinglePrecisionFeatures looked_at;
+    if (options.choose || !examples.empty()) looked_at = {comm, features.histograms};
     FeatureMatrices clustered;
-    if (options.method == PartitionMethod::diffusion || options.choose || !examples.empty())
-        clustered = std::move(features.histograms);
+    if (options.method == PartitionMethod::diffusion) clustered = std::move(features.histograms);
+    Eigen::Matrix3Xf rounded_positions = features.positions.cast<float>();
     return {.collection = collection,
             .coefficients = coefficients,
             .patch_area = std::move(features.patch_area),
             .positions = std::move(features.positions),
             .choice_weights = std::move(weights),
-            .histograms = std::move(clustered),
+            .features = std::move(looked_at),
+            .rounded_positions = std::move(rounded_positions),
+            .clustered = std::move(clustered),
             .examples = examples.empty() ? nullptr : &examples};
 }
 
@@ -131,15 +136,15 @@ CutResult cut_into_parts(const Comm& comm, const PartitionInput& input, const Pa
     const std::vector<int> mesh_of = input.collection.numbering.mesh_of();
     if (options.method == PartitionMethod::diffusion) {
         const DiffusionOptions diffusion{.parts = options.parts, .seed = options.seed};
-        return described_partition(diffusion_clusters(comm, input.histograms, diffusion), options.parts,
+        return described_partition(diffusion_clusters(comm, input.clustered, diffusion), options.parts,
                                    mesh_of, input.patch_area);
     }
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(input.collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(input.collection);
     const std::vector<ChoiceDescriptor> choice = input.choice();
     const CutInput cut{
-        input.coefficients,      neighbors,      overlaps,         mesh_of, input.patch_area, choice,
-        input.known_positions(), input.examples, &input.histograms};
+        input.coefficients,      neighbors,      overlaps,       mesh_of, input.patch_area, choice,
+        input.known_positions(), input.examples, &input.features};
     if (options.parts != found_parts && !options.levels)
         return partition_patches(comm, cut, cut_options(input, options));
     PartitionOptions known = options;

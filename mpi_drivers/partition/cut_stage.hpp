@@ -23,12 +23,14 @@ struct PartitionInput {
     /// Per feature, and then of positions, the weights of its explained shares in the choice among several
     /// starts; none with a single one.
     std::vector<BetweenPartVariance> choice_weights;
-    /// Of --partition diffusion, which clusters them; of a choice among starts, whose parts are scored by
-    /// them; and of examples, which are followed by them; none otherwise.
-    FeatureMatrices histograms;
+    /// Of a choice among starts, whose parts are scored by them, and of examples, which are followed by them;
+    /// none otherwise.
+    SinglePrecisionFeatures features;
+    Eigen::Matrix3Xf rounded_positions;       ///< the positions as one more descriptor of the choice
+    FeatureMatrices clustered;                ///< by --partition diffusion; none otherwise
     const ExampleLabels* examples = nullptr;  ///< null where there are none
 
-    /// What has a weight in the choice. Refers to histograms and positions of this input.
+    /// What has a weight in the choice. Refers to features and positions of this input.
     [[nodiscard]] std::vector<ChoiceDescriptor> choice() const;
     /// Null where there are none.
     [[nodiscard]] const Eigen::Matrix3Xd* known_positions() const noexcept {
@@ -42,9 +44,8 @@ struct PartitionInput {
 double share_weight(const PatchNumbering& numbering);
 
 /// Takes from the features what the cut uses; `examples` are not copied. The rest is freed: in a large
-/// collection it is most of the memory, which the cut needs for its graphs. Collective where the features are
-/// the last handle of their memory.
-PartitionInput partition_input(const Collection& collection, PatchFeatures features,
+/// collection it is most of the memory, which the cut needs for its graphs. Collective.
+PartitionInput partition_input(const Comm& comm, const Collection& collection, PatchFeatures features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                const ExampleLabels& examples = {});
 

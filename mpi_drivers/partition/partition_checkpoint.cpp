@@ -79,7 +79,7 @@ ContentHash cut_key(const Comm& comm, const PartitionInput& input, const std::st
     add_value(hasher, input.positions);
     for (const ChoiceDescriptor& d : input.choice()) {
         for (Eigen::Index i = 0; i < d.histograms.cols(); ++i)
-            hasher.add(std::span<const double>(d.histograms.col(i).data(), at(d.histograms.rows())));
+            hasher.add(std::span<const float>(d.histograms.col(i).data(), at(d.histograms.rows())));
     }
     if (input.examples != nullptr) add_value(hasher, input.examples->area);
     return hasher.result();

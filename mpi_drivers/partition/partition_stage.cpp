@@ -60,8 +60,9 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     ShapeAlignment alignment =
         alignment_stage(comm, collection, features, optimisation.result.coefficients, task.partition, log);
     features.positions = turned_positions(alignment, features.positions, collection.numbering.mesh_of());
-    const PartitionInput input = partition_input(
-        collection, std::move(features), optimisation.result.coefficients, task.partition, task.examples);
+    const PartitionInput input =
+        partition_input(comm, collection, std::move(features), optimisation.result.coefficients,
+                        task.partition, task.examples);
     log.begin("cut");
     CutResult cut = cut_or_found(comm, input, task.partition, task.cuts);
     const auto parts = static_cast<int>(cut.part_share.size());

@@ -148,7 +148,8 @@ CutResult partition_segments(const Comm& comm, const Collection& collection, con
     PatchFeatures described = segment_features(features, segments, collection.numbering.oversegmentations());
     const Optimisation optimisation = optimise(comm, whole, described, task.optimise, task.tiles);
     const CutResult cut = cut_or_found(
-        comm, partition_input(whole, std::move(described), optimisation.result.coefficients, task.partition),
+        comm,
+        partition_input(comm, whole, std::move(described), optimisation.result.coefficients, task.partition),
         task.partition, task.cuts);
     std::vector<int> part_of_patch;
     for (const int segment : segments.of_patch) part_of_patch.push_back(cut.part_of_patch[at(segment)]);

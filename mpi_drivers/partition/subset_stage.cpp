@@ -125,7 +125,7 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
         part.features.positions =
             turned_positions(alignment, part.features.positions, part.collection.numbering.mesh_of());
         const CutResult cut = cut_or_found(comm,
-                                           partition_input(part.collection, std::move(part.features),
+                                           partition_input(comm, part.collection, std::move(part.features),
                                                            optimised.result.coefficients, options),
                                            options, task.cuts);
         take_columns(comm, optimised.result.coefficients, part.patch_of, columns);

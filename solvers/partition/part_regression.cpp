@@ -89,31 +89,30 @@ PartRegression::PartRegression(const PatchLooks& looks, const std::vector<Global
                                const std::vector<double>& confidence)
     : patch_area_(looks.area), meshes_(looks.mesh_of.empty() ? 0 : 1 + looks.mesh_of.back()) {
     const auto patches = static_cast<int>(patch_area_.size());
-    if (looks.features.columns() != patches)
+    if (looks.features.all().cols() != patches)
         throw Error(ExitCode::internal, "the features of a regression of parts are not of all patches");
     for (std::size_t i = 0; i < patch_area_.size(); ++i)
         weight_.push_back(patch_area_[i] * (confidence.empty() ? 1.0 : confidence[i]));
-    reduce_features(looks.features);
+    reduce_features(looks.features.all());
     add_neighborhoods(neighbors);
     x_.bottomRows<3>() = correlated_places(looks.frame, looks.positions, patches).cast<float>();
     sum_base();
 }
 
 /// The first rows of x_.
-void PartRegression::reduce_features(const FeatureMatrices& features) {
-    const Eigen::Map<const Eigen::MatrixXd> all(features.data(), features.dimension(), features.columns());
+void PartRegression::reduce_features(const SinglePrecisionFeatures::ConstBlock& all) {
     const Eigen::Index kept = std::min(components, all.rows());
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(all.rows());
     double area = 0.0;
     for (Eigen::Index i = 0; i < all.cols(); ++i) {
-        mean += patch_area_[at(i)] * all.col(i);
+        mean += patch_area_[at(i)] * all.col(i).cast<double>();
         area += patch_area_[at(i)];
     }
     if (area > 0.0) mean /= area;
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(all.rows(), all.rows());
     for (Eigen::Index first = 0; first < all.cols(); first += columns_at_once) {
         const Eigen::Index count = std::min(columns_at_once, all.cols() - first);
-        Eigen::MatrixXd block = all.middleCols(first, count).colwise() - mean;
+        Eigen::MatrixXd block = all.middleCols(first, count).cast<double>().colwise() - mean;
         for (Eigen::Index i = 0; i < count; ++i) block.col(i) *= std::sqrt(patch_area_[at(first + i)]);
         covariance.selfadjointView<Eigen::Lower>().rankUpdate(block);
     }
@@ -122,7 +121,7 @@ void PartRegression::reduce_features(const FeatureMatrices& features) {
     x_ = Eigen::MatrixXf::Zero(2 * kept + 3, all.cols());
     for (Eigen::Index first = 0; first < all.cols(); first += columns_at_once) {
         const Eigen::Index count = std::min(columns_at_once, all.cols() - first);
-        const Eigen::MatrixXd block = all.middleCols(first, count).colwise() - mean;
+        const Eigen::MatrixXd block = all.middleCols(first, count).cast<double>().colwise() - mean;
         x_.block(0, first, kept, count) = (axes.transpose() * block).cast<float>();
     }
 }

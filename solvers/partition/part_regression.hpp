@@ -44,7 +44,7 @@ class PartRegression {
     [[nodiscard]] Eigen::MatrixXd scores(const SaidParts& said) const;
 
   private:
-    void reduce_features(const FeatureMatrices& features);
+    void reduce_features(const SinglePrecisionFeatures::ConstBlock& all);
     void add_neighborhoods(const std::vector<GlobalPatchNeighbors>& pairs);
     void sum_base();
 

@@ -45,7 +45,7 @@ class CrossFit {
   public:
     CrossFit(const PatchLooks& looks, const std::vector<int>& part_of_patch, int parts)
         : looks_(looks),
-          features_(looks.features.data(), looks.features.dimension(), looks.features.columns()),
+          features_(looks.features.all()),
           places_(correlated_places(looks.frame, looks.positions, features_.cols())),
           part_of_patch_(part_of_patch),
           parts_(parts),
@@ -81,7 +81,7 @@ class CrossFit {
         const Eigen::MatrixXd slope = fit.slope.cast<double>();
         const Eigen::Index d = features_.rows();
         for (const Eigen::Index i : patches_of(fit.group, 1)) {
-            const Eigen::VectorXd value = slope.topRows(d).transpose() * features_.col(i) +
+            const Eigen::VectorXd value = slope.topRows(d).transpose() * features_.col(i).cast<double>() +
                                           slope.middleRows(d, 3).transpose() * places_.col(i) +
                                           slope.row(d + 3).transpose();
             scores.col(i) = value.cast<float>();
@@ -114,7 +114,7 @@ class CrossFit {
         for (int k = 0; k < count; ++k) {
             const Eigen::Index i = patches[at(k)];
             const auto root = static_cast<float>(std::sqrt(looks_.area[at(i)] * weight_of_area_));
-            x.row(k).head(d) = root * features_.col(i).transpose().cast<float>();
+            x.row(k).head(d) = root * features_.col(i).transpose();
             x.row(k).segment<3>(d) = root * places_.col(i).transpose().cast<float>();
             x(k, d + 3) = root;
             y(k, part_of_patch_[at(i)]) = root;
@@ -124,7 +124,7 @@ class CrossFit {
     }
 
     const PatchLooks& looks_;
-    Eigen::Map<const Eigen::MatrixXd> features_;
+    SinglePrecisionFeatures::ConstBlock features_;
     Eigen::Matrix3Xd places_;
     const std::vector<int>& part_of_patch_;
     int parts_;
@@ -154,7 +154,7 @@ Eigen::MatrixXf part_scores(const Comm& comm, const PatchLooks& looks, const std
         for (int g = comm.rank(); g < fit.groups(); g += comm.size())
             slopes.push_back(fit.fitted(all, sums[at(g)]));
     });
-    Eigen::MatrixXf scores(parts, looks.features.columns());
+    Eigen::MatrixXf scores(parts, looks.features.all().cols());
     for (const GroupSlope& slope : all_gather_records(comm, slopes)) fit.score(slope, scores);
     return scores;
 }

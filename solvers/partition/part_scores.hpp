@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "src/histograms/feature_matrices.hpp"
+#include "src/histograms/single_precision_features.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/records/position_frame.hpp"
 
@@ -12,7 +12,7 @@ namespace coseg {
 
 /// What patches look like and where they are, the same on all ranks.
 struct PatchLooks {
-    const FeatureMatrices& features;              ///< D x N
+    const SinglePrecisionFeatures& features;      ///< D x N in all
     const Eigen::Matrix3Xd* positions = nullptr;  ///< 3 x N; null: places do not count
     const PositionFrame& frame;                   ///< of these positions
     const std::vector<double>& area;              ///< of each patch

@@ -33,7 +33,7 @@ void add_deviations(const PartitionEvidence& evidence, const PatchColumns& x,
                     Eigen::Map<Eigen::MatrixXf> deviations) {
     Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(x.rows(), static_cast<Eigen::Index>(mesh_area.size()));
     for (Eigen::Index i = 0; i < x.cols(); ++i)
-        mean.col(evidence.mesh_of[at(i)]) += evidence.patch_area[at(i)] * x.col(i);
+        mean.col(evidence.mesh_of[at(i)]) += evidence.patch_area[at(i)] * x.col(i).cast<double>();
     for (std::size_t m = 0; m < mesh_area.size(); ++m) {
         if (mesh_area[m] > 0.0) mean.col(static_cast<Eigen::Index>(m)) /= mesh_area[m];
     }
@@ -42,8 +42,8 @@ void add_deviations(const PartitionEvidence& evidence, const PatchColumns& x,
     auto rows = deviations.middleRows(first, x.rows());
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
         const double area = evidence.patch_area[at(i)];
-        const Eigen::VectorXd deviation = x.col(i) - mean.col(evidence.mesh_of[at(i)]);
-        squares += area * x.col(i).squaredNorm();
+        const Eigen::VectorXd deviation = x.col(i).cast<double>() - mean.col(evidence.mesh_of[at(i)]);
+        squares += area * x.col(i).cast<double>().squaredNorm();
         spread += area * deviation.squaredNorm();
         rows.col(i) = (area * deviation).cast<float>();
     }

@@ -22,7 +22,7 @@ HistogramSums sums_of_parts(const PatchColumns& histograms, const std::vector<in
     HistogramSums sums{Eigen::MatrixXd::Zero(histograms.rows(), Eigen::Index{parts} * meshes),
                        Eigen::MatrixXd::Zero(parts, meshes)};
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        const auto x = histograms.col(static_cast<Eigen::Index>(i));
+        const auto x = histograms.col(static_cast<Eigen::Index>(i)).cast<double>();
         sums.histograms.col(Eigen::Index{mesh_of[i]} * parts + labels[i]) += patch_area[i] * x;
         sums.area(labels[i], mesh_of[i]) += patch_area[i];
         sums.squares += patch_area[i] * x.squaredNorm();

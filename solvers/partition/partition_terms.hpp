@@ -7,15 +7,15 @@
 
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
-#include "src/histograms/feature_matrices.hpp"
+#include "src/histograms/single_precision_features.hpp"
 #include "src/records/start_outcome.hpp"
 
 namespace coseg {
 
 /// Numbers of all patches, one column each, column major, where they lie: in features or another matrix.
-using PatchColumns = FeatureMatrices::ConstBlock;
+using PatchColumns = SinglePrecisionFeatures::ConstBlock;
 
-/// All columns of a matrix in double, which must outlive the result.
+/// All columns of a matrix in single precision, which must outlive the result.
 template <class Matrix>
 PatchColumns patch_columns(const Matrix& matrix) {
     return {matrix.data(), matrix.rows(), matrix.cols(), Eigen::OuterStride<>(matrix.rows())};

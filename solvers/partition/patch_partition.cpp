@@ -41,7 +41,7 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
         }
         if (options.starts.empty()) throw Error(ExitCode::internal, "the cut was given no start");
         if (input.examples != nullptr &&
-            (input.features == nullptr || input.features->columns() != patches ||
+            (input.features == nullptr || input.features->all().cols() != patches ||
              input.examples->area.cols() != patches || input.examples->area.rows() != options.parts))
             throw Error(ExitCode::internal, "examples and features of the cut are not of all patches");
         if (asks_for_positions(options.starts) &&
@@ -88,7 +88,7 @@ Found found_alone(const Comm& comm, const PartitionEvidence& evidence, const Cut
 /// The scores of the examples as a descriptor that a partition should explain, beside the others. The scores
 /// must outlive the result.
 std::vector<ChoiceDescriptor> with_scores(std::span<const ChoiceDescriptor> descriptors,
-                                          const Eigen::MatrixXd& scores, double weight) {
+                                          const Eigen::MatrixXf& scores, double weight) {
     std::vector<ChoiceDescriptor> all(descriptors.begin(), descriptors.end());
     all.push_back({patch_columns(scores), {.pooled = weight, .per_mesh = weight}});
     return all;
@@ -97,8 +97,9 @@ std::vector<ChoiceDescriptor> with_scores(std::span<const ChoiceDescriptor> desc
 /// The partitions that explain the scores of the examples too. Collective.
 Found found_explaining(const Comm& comm, const PartitionEvidence& evidence, const Eigen::MatrixXd& scores,
                        const CutOptions& options, std::vector<PartitionCandidate> clusterings) {
+    const Eigen::MatrixXf single = scores.cast<float>();
     const std::vector<ChoiceDescriptor> descriptors =
-        with_scores(evidence.descriptors, scores, options.examples.explained);
+        with_scores(evidence.descriptors, single, options.examples.explained);
     PartitionEvidence sought = evidence;
     sought.descriptors = descriptors;
     const PartitionObjective objective = partition_objective(comm, sought, options.choice);

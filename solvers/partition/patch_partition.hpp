@@ -26,7 +26,7 @@ namespace coseg {
 /// one piece, but where shapes have many limbs it does harm in the cut.
 std::vector<CutStart> pooled_starts(int parts, bool placed = false);
 
-/// One cut into the parts, with adjacency = overlap. 0 with AffinityForm::paper is the paper's text.
+/// One cut into the parts, with adjacency = overlap. 0 with AffinityForm::formula_8 is the paper's text.
 std::vector<CutStart> single_start(int parts, double adjacency);
 
 struct CutInput {
@@ -45,7 +45,7 @@ struct CutInput {
     const ExampleLabels* examples = nullptr;
     /// By which examples are followed, and parts scored; needed with examples, and where there are several
     /// starts.
-    const FeatureMatrices* features = nullptr;
+    const SinglePrecisionFeatures* features = nullptr;
 };
 
 /// SpectralOptions::tolerance of eigenvectors whose clusters are only where a search begins.

@@ -83,7 +83,7 @@ SparseRows rows_of(const Comm& comm, const MeshSample& sample, const SparseRows&
 struct SampledEvidence {
     std::vector<GlobalPatchNeighbors> neighbors;
     std::vector<GlobalPatchOverlap> overlaps;
-    std::vector<Eigen::MatrixXd> histograms;  ///< of each descriptor
+    std::vector<Eigen::MatrixXf> histograms;  ///< of each descriptor
     std::vector<double> patch_area;
     Eigen::Matrix3Xd positions;  ///< without columns where there are none
 };

@@ -172,21 +172,23 @@ ToyCollection toy_collection(const Comm& comm, int meshes, int parts, int patche
     toy.histograms.resize(parts, toy.patches);
     for (int i = 0; i < toy.patches; ++i) {
         for (int p = 0; p < parts; ++p) {
-            const double noise = 0.3 * uniform_of(hash_words({word(i), word(p)}));
-            toy.histograms(p, i) = toy.truth[static_cast<std::size_t>(i)] == p ? 1.0 + noise : noise;
+            const auto noise = static_cast<float>(0.3 * uniform_of(hash_words({word(i), word(p)})));
+            toy.histograms(p, i) = toy.truth[static_cast<std::size_t>(i)] == p ? 1.0F + noise : noise;
         }
     }
     return toy;
 }
 
-FeatureMatrices segment_features(const ToyCollection& toy) { return FeatureMatrices({toy.histograms}); }
+SinglePrecisionFeatures segment_features(const ToyCollection& toy) {
+    return {Comm(MPI_COMM_SELF), FeatureMatrices({toy.histograms.cast<double>()})};
+}
 
 std::vector<ChoiceDescriptor> segment_descriptors(const ToyCollection& toy, BetweenPartVariance weight) {
     return {{patch_columns(toy.histograms), weight}};
 }
 
 CutInput toy_input(const ToyCollection& toy, std::span<const ChoiceDescriptor> descriptors,
-                   const FeatureMatrices* features) {
+                   const SinglePrecisionFeatures* features) {
     return {.coefficients = toy.coefficients,
             .neighbors_local = toy.neighbors,
             .overlaps_local = toy.overlaps,

@@ -9,7 +9,7 @@
 #include "solvers/affinity/sparse_rows.hpp"
 #include "solvers/partition/patch_partition.hpp"
 #include "solvers/subspace/coefficients.hpp"
-#include "src/histograms/feature_matrices.hpp"
+#include "src/histograms/single_precision_features.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg::testing_graphs {
@@ -51,19 +51,19 @@ struct ToyCollection {
     std::vector<GlobalPatchNeighbors> neighbors;
     std::vector<GlobalPatchOverlap> overlaps;
     SparseCoefficients coefficients;  ///< the columns of this rank
-    Eigen::MatrixXd histograms;       ///< K x N: a descriptor that tells the segments apart, with some noise
+    Eigen::MatrixXf histograms;       ///< K x N: a descriptor that tells the segments apart, with some noise
 };
 /// Relations are those of the meshes m with m % ranks = rank.
 ToyCollection toy_collection(const Comm& comm, int meshes, int parts, int patches_per_part,
                              std::uint64_t seed);
 /// Its histograms as features of patches.
-FeatureMatrices segment_features(const ToyCollection& toy);
+SinglePrecisionFeatures segment_features(const ToyCollection& toy);
 /// Its histograms, where they lie, with what the descriptors of a run weigh together.
 std::vector<ChoiceDescriptor> segment_descriptors(const ToyCollection& toy,
                                                   BetweenPartVariance weight = {.pooled = 1.0,
                                                                                 .per_mesh = 4.8});
 /// What is cut; it refers to the arguments.
 CutInput toy_input(const ToyCollection& toy, std::span<const ChoiceDescriptor> descriptors,
-                   const FeatureMatrices* features = nullptr);
+                   const SinglePrecisionFeatures* features = nullptr);
 
 }  // namespace coseg::testing_graphs

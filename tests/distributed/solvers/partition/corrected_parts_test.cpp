@@ -23,7 +23,7 @@ constexpr int toy_segments = 3;
 struct Said {
     ToyCollection toy;
     std::vector<ChoiceDescriptor> descriptors;
-    FeatureMatrices features;
+    SinglePrecisionFeatures features;
     CorrectedParts parts;
     SaidParts said;
 

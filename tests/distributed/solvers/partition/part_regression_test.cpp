@@ -18,7 +18,7 @@ namespace {
 /// Patches of four meshes with random features, in a row where each touches the next, in any place.
 struct Patches {
     int count;
-    FeatureMatrices features;
+    SinglePrecisionFeatures features;
     std::vector<GlobalPatchNeighbors> neighbors;
     Eigen::Matrix3Xd positions;
     PositionFrame frame;
@@ -34,7 +34,7 @@ struct Patches {
             for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = random.uniform();
             return x;
         };
-        features = FeatureMatrices({numbers(3), numbers(2)});
+        features = {Comm(MPI_COMM_SELF), FeatureMatrices({numbers(3), numbers(2)})};
         positions = numbers(3);
         frame.mean = {0.1, 0.2, 0.3};
         frame.directions << 2, 0, 0, 0.3, 1, 0, 0, 0.1, 3;
@@ -58,14 +58,12 @@ struct Patches {
     [[nodiscard]] Eigen::MatrixXd all_features() const {
         Eigen::MatrixXd x = Eigen::MatrixXd::Zero(13, count);
         for (int i = 0; i < count; ++i) {
-            x.col(i).head(5) << features[0].col(i), features[1].col(i);
+            x.col(i).head(5) = features.all().col(i).cast<double>();
             double length = 0.0;
             for (const GlobalPatchNeighbors& n : neighbors) {
                 if (n.patch_a != i && n.patch_b != i) continue;
                 const int other = n.patch_a == i ? n.patch_b : n.patch_a;
-                Eigen::VectorXd near(5);
-                near << features[0].col(other), features[1].col(other);
-                x.col(i).segment(5, 5) += n.boundary_length * near;
+                x.col(i).segment(5, 5) += n.boundary_length * features.all().col(other).cast<double>();
                 length += n.boundary_length;
             }
             x.col(i).segment(5, 5) /= length;

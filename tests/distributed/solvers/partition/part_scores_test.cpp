@@ -20,7 +20,7 @@ constexpr int patch_count = mesh_count * in_a_mesh;
 
 /// TwoParts of two parts: feature 0 says which, as far as `told` goes; the rest is noise.
 struct TwoParts {
-    FeatureMatrices features;
+    SinglePrecisionFeatures features;
     Eigen::Matrix3Xd positions{3, patch_count};
     PositionFrame frame;
     std::vector<double> area;
@@ -38,7 +38,8 @@ struct TwoParts {
             x(0, i) += told * part.back();
             for (int d = 0; d < 3; ++d) positions(d, i) = random.uniform();
         }
-        features = FeatureMatrices({Eigen::MatrixXd(x.topRows(1)), Eigen::MatrixXd(x.bottomRows(3))});
+        features = {Comm(MPI_COMM_SELF),
+                    FeatureMatrices({Eigen::MatrixXd(x.topRows(1)), Eigen::MatrixXd(x.bottomRows(3))})};
         frame.mean = {0.1, 0.2, 0.3};
         frame.correlation = {0.1, 0.5, 0.9};
     }
@@ -46,8 +47,7 @@ struct TwoParts {
 
     [[nodiscard]] Eigen::MatrixXd all_numbers() const {
         Eigen::MatrixXd x(8, patch_count);
-        x.topRows(1) = features[0];
-        x.middleRows(1, 3) = features[1];
+        x.topRows(4) = features.all().cast<double>();
         for (int i = 0; i < patch_count; ++i)
             x.col(i).segment<3>(4) =
                 ((positions.col(i) - frame.mean).array() * frame.correlation.array()).matrix() /

@@ -172,7 +172,7 @@ ExampleLabels labels_of_the_first_mesh(const ToyCollection& toy, int parts) {
 CutResult cut_by_example(const Comm& comm, const ToyCollection& toy, int parts, const ExampleLabels& examples,
                          std::int64_t one_rank_entries = 1'000'000) {
     const std::vector<ChoiceDescriptor> descriptors = segment_descriptors(toy);
-    const FeatureMatrices features = segment_features(toy);
+    const SinglePrecisionFeatures features = segment_features(toy);
     CutInput input = toy_input(toy, descriptors, &features);
     input.examples = &examples;
     CutOptions options = pooled(parts);

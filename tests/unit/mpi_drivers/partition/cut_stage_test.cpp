@@ -34,7 +34,9 @@ double cost_of_boundary(const Collection& collection) {
                                .patch_area = {},
                                .positions = {},
                                .choice_weights = {},
-                               .histograms = {},
+                               .features = {},
+                               .rounded_positions = {},
+                               .clustered = {},
                                .examples = nullptr};
     std::vector<int> labels;
     for (int i = 0; i < collection.numbering.patch_count(); ++i) labels.push_back(i % 4 / 2);

@@ -22,7 +22,7 @@ struct RandomCollection {
     static constexpr int patches = meshes * patches_of_mesh;
     std::vector<GlobalPatchNeighbors> neighbors;
     std::vector<GlobalPatchOverlap> overlaps;
-    std::array<Eigen::MatrixXd, 2> histograms = {Eigen::MatrixXd(3, patches), Eigen::MatrixXd(2, patches)};
+    std::array<Eigen::MatrixXf, 2> histograms = {Eigen::MatrixXf(3, patches), Eigen::MatrixXf(2, patches)};
     std::vector<ChoiceDescriptor> descriptors;
     std::vector<int> mesh_of;
     std::vector<double> area;
@@ -36,8 +36,9 @@ struct RandomCollection {
         for (int i = 0; i < patches; ++i) {
             mesh_of.push_back(i / patches_of_mesh);
             area.push_back(0.2 + random.uniform());
-            for (Eigen::MatrixXd& x : histograms) {
-                for (Eigen::Index r = 0; r < x.rows(); ++r) x(r, i) = random.uniform() + mesh_of.back();
+            for (Eigen::MatrixXf& x : histograms) {
+                for (Eigen::Index r = 0; r < x.rows(); ++r)
+                    x(r, i) = static_cast<float>(random.uniform() + mesh_of.back());
             }
         }
         std::vector<SparseEntry> entries;
@@ -229,7 +230,7 @@ TEST(PartitionSearch, MovesOfPatchesRaiseTheScoreAndKeepEveryPart) {
 TEST(PartitionSearch, DescriptorsOfNoSpreadAndMeshesWithoutOverlapsAddNothing) {
     RandomCollection c(4);
     c.overlaps.clear();
-    for (Eigen::MatrixXd& x : c.histograms) x.setConstant(2.0);
+    for (Eigen::MatrixXf& x : c.histograms) x.setConstant(2.0F);
     const PartitionObjective objective = partition_objective(c.evidence(), c.weights);
     EXPECT_TRUE(objective.deviations.matrix().isZero());
     const std::vector<int> clusters = random_labels(5, 4);
@@ -269,7 +270,7 @@ TEST(PartitionSearch, AnExchangeMendsTheMeshWhosePartsAreSwapped) {
     RandomCollection c(1);
     const std::vector<int> right = random_labels(3, 8);
     for (int i = 0; i < RandomCollection::patches; ++i)
-        c.histograms[0].col(i) = 4.0 * Eigen::Vector3d::Unit(right[at(i)]);
+        c.histograms[0].col(i) = 4.0F * Eigen::Vector3f::Unit(right[at(i)]);
     const std::vector<int> wrong = renamed_in(c, right, 2, {1, 2, 0});
     EXPECT_EQ(exchange_parts(partition_objective(c.evidence(), c.weights), wrong, 3), right);
 }

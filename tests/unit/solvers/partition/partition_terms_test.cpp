@@ -32,7 +32,7 @@ TEST(PartitionTerms, TheScoreIsASumThatOtherPartitionsDoNotChange) {
     terms.size = -0.125;
     terms.links = 0.5;
     const std::vector<ChoiceDescriptor> descriptors = {
-        {patch_columns(Eigen::MatrixXd()), {.pooled = 8.0, .per_mesh = 16.0}}};
+        {patch_columns(Eigen::MatrixXf()), {.pooled = 8.0, .per_mesh = 16.0}}};
     const ChoiceWeights weights{.crease = 3.0, .overlap = 20.0, .concavity = 4.0, .size = 40.0, .links = 6.0};
     EXPECT_DOUBLE_EQ(partition_score(terms, weights, descriptors), 2.0 + 8.0 - 6.0 + 15.0 + 2.0 - 5.0 + 3.0);
 }
@@ -62,7 +62,7 @@ TEST(PartitionTerms, OverlapAgreementIsTheShareOfTheOwnPartByArea) {
 }
 
 TEST(PartitionTerms, PartsThatAreAlikeInsideExplainAllAndPartsWithOneMeanNothing) {
-    Eigen::MatrixXd values(2, 4);
+    Eigen::MatrixXf values(2, 4);
     values << 1, 1, 0, 0, 0, 0, 1, 1;
     const PatchColumns histograms = patch_columns(values);
     const std::vector<int> one_mesh(4, 0);
@@ -74,13 +74,13 @@ TEST(PartitionTerms, PartsThatAreAlikeInsideExplainAllAndPartsWithOneMeanNothing
         between_part_variance(histograms, {0, 1, 0, 1}, 2, {1, 1, 1, 1}, one_mesh);
     EXPECT_NEAR(nothing.pooled, 0.0, 1e-15);
     EXPECT_NEAR(nothing.per_mesh, 0.0, 1e-15);
-    const Eigen::MatrixXd alike = Eigen::MatrixXd::Ones(2, 4);
+    const Eigen::MatrixXf alike = Eigen::MatrixXf::Ones(2, 4);
     EXPECT_EQ(between_part_variance(patch_columns(alike), {0, 1, 0, 1}, 2, area, one_mesh),
               BetweenPartVariance{});
 }
 
 TEST(PartitionTerms, InOneMeshTheExplainedSpreadIsThatOfTheAnalysisOfVariance) {
-    Eigen::MatrixXd values(1, 5);
+    Eigen::MatrixXf values(1, 5);
     values << 1, 2, 4, 7, 11;
     const std::vector<int> labels = {0, 0, 1, 1, 1};
     const double mean = 5.0;
@@ -98,7 +98,7 @@ TEST(PartitionTerms, InOneMeshTheExplainedSpreadIsThatOfTheAnalysisOfVariance) {
 /// Two meshes of two patches: what tells the patches apart, and what the meshes.
 BetweenPartVariance of_two_meshes(double first_a, double first_b, double second_a, double second_b,
                                   const std::vector<int>& labels) {
-    Eigen::MatrixXd values(1, 4);
+    Eigen::MatrixXf values(1, 4);
     values << first_a, first_b, second_a, second_b;
     return between_part_variance(patch_columns(values), labels, 2, std::vector<double>(4, 1.0), {0, 0, 1, 1});
 }
