@@ -49,7 +49,8 @@ void join_over_ranks(const Comm& comm, int size, DisjointSets& sets) {
 }
 
 /// Per label the within_mesh_affinity from `row` to rows that have it; the heaviest label, or -1.
-int heaviest_label(const SparseRows& within_mesh_affinity, std::size_t row, const std::vector<int>& labels) {
+int heaviest_label(const SparseRowsView& within_mesh_affinity, std::size_t row,
+                   const std::vector<int>& labels) {
     std::map<int, double> weight;
     for (auto k = at(within_mesh_affinity.offsets[row]); k < at(within_mesh_affinity.offsets[row + 1]); ++k) {
         const int label = labels[at(within_mesh_affinity.columns[k])];
@@ -101,7 +102,7 @@ std::vector<std::vector<int>> main_components(const std::vector<int>& component_
     return sorted;
 }
 
-int attach_set_aside(std::vector<int>& labels, const SparseRows& within_mesh_affinity, int fallback) {
+int attach_set_aside(std::vector<int>& labels, const SparseRowsView& within_mesh_affinity, int fallback) {
     std::vector<std::size_t> waiting;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] < 0) waiting.push_back(i);

@@ -24,6 +24,6 @@ std::vector<std::vector<int>> main_components(const std::vector<int>& component_
 /// Gives every row of label -1 the label to which the complete, symmetric `within_mesh_affinity` ties it
 /// most. The labels spread in rounds from the rows that have one; of equal ties the lowest label is taken.
 /// Returns the number of rows that no affinity reaches: these take `fallback`.
-int attach_set_aside(std::vector<int>& labels, const SparseRows& within_mesh_affinity, int fallback);
+int attach_set_aside(std::vector<int>& labels, const SparseRowsView& within_mesh_affinity, int fallback);
 
 }  // namespace coseg

@@ -100,12 +100,12 @@ double total(const Comm& comm, const SparseRows& matrix) {
 }
 
 SparseRows weighted_sum(std::span<const WeightedMatrix> terms) {
-    const SparseRows& first = *terms.front().matrix;
+    const SparseRowsView& first = terms.front().matrix;
     SparseRows sum;
     sum.size = first.size;
     sum.rows = first.rows;
     std::size_t entries = 0;  // at most, and nearly: a place rarely has a value in two terms
-    for (const WeightedMatrix& term : terms) entries += term.weight == 0.0 ? 0 : term.matrix->values.size();
+    for (const WeightedMatrix& term : terms) entries += term.weight == 0.0 ? 0 : term.matrix.values.size();
     sum.columns.reserve(entries);
     sum.values.reserve(entries);
     sum.offsets.reserve(first.offsets.size());
@@ -114,9 +114,9 @@ SparseRows weighted_sum(std::span<const WeightedMatrix> terms) {
         row.clear();
         for (const WeightedMatrix& term : terms) {
             if (term.weight == 0.0) continue;
-            for (auto k = term.matrix->offsets[r]; k < term.matrix->offsets[r + 1]; ++k) {
+            for (auto k = term.matrix.offsets[r]; k < term.matrix.offsets[r + 1]; ++k) {
                 const auto e = at(k);
-                row.emplace_back(term.matrix->columns[e], term.weight * term.matrix->values[e]);
+                row.emplace_back(term.matrix.columns[e], term.weight * term.matrix.values[e]);
             }
         }
         std::stable_sort(row.begin(), row.end(),

@@ -34,6 +34,24 @@ struct SparseRows {
     [[nodiscard]] std::int64_t local_rows() const noexcept { return rows.size(); }
 };
 
+/// Rows of a matrix where they lie; whoever holds them must outlive this. The fields are those of SparseRows.
+struct SparseRowsView {
+    /// Implicit, as for a reader the two are the same.
+    SparseRowsView(const SparseRows& matrix)  // NOLINT(google-explicit-constructor)
+        : SparseRowsView(matrix.size, matrix.rows, matrix.offsets, matrix.columns, matrix.values) {}
+    SparseRowsView(std::int64_t of_size, BlockRange of_rows, std::span<const std::int64_t> ends,
+                   std::span<const int> places, std::span<const double> entries)
+        : size(of_size), rows(of_rows), offsets(ends), columns(places), values(entries) {}
+
+    std::int64_t size;
+    BlockRange rows;
+    std::span<const std::int64_t> offsets;
+    std::span<const int> columns;
+    std::span<const double> values;
+
+    [[nodiscard]] std::int64_t local_rows() const noexcept { return rows.size(); }
+};
+
 /// The rows `range` of a matrix, made of entries of these rows in any order. Entries of the same row and
 /// column are added, smallest first, so that their order does not matter.
 SparseRows rows_from_entries(std::int64_t size, BlockRange range, std::vector<SparseEntry> entries);
@@ -54,7 +72,7 @@ std::vector<double> row_sums_global(const Comm& comm, const SparseRows& matrix);
 double total(const Comm& comm, const SparseRows& matrix);
 
 struct WeightedMatrix {
-    const SparseRows* matrix = nullptr;
+    SparseRowsView matrix;
     double weight = 1.0;
 };
 

@@ -103,10 +103,11 @@ CorrectedParts::CorrectedParts(const Comm& comm, const CutInput& input, const Cu
             PatchLooks{*input.features, input.positions, terms_.frame, input.patch_area, input.mesh_of},
             cut.neighbors, confidence);
     });
-    objective_ = partition_objective(comm,
-                                     {cut.neighbors, cut.overlaps, input.descriptors, input.mesh_of,
-                                      input.patch_area, cut.links_count ? &terms_.base : nullptr},
-                                     options.choice);
+    objective_ =
+        partition_objective(comm,
+                            {cut.neighbors, cut.overlaps, input.descriptors, input.mesh_of, input.patch_area,
+                             cut.links_count ? std::optional(terms_.base.view()) : std::nullopt},
+                            options.choice);
 }
 
 }  // namespace coseg

@@ -6,6 +6,7 @@
 #include "solvers/affinity/affinity.hpp"
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/position_correlation.hpp"
+#include "solvers/affinity/shared_sparse_rows.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
 #include "solvers/subspace/coefficients.hpp"
 #include "src/parallel/comm.hpp"
@@ -25,19 +26,19 @@ struct GraphOptions {
     AffinityForm form = AffinityForm::links;
     bool minima_rule = true;
     bool placed = false;    ///< a graph is weighed by position
-    bool complete = false;  ///< every rank holds all rows of all graphs
+    bool complete = false;  ///< every node holds all rows of the terms, and a rank those of a graph
 };
 
 /// The terms of which all graphs are sums.
 struct GraphTerms {
-    SparseRows base;
+    SharedSparseRows base;
     PositionFrame frame;
     double placed_share = 1.0;  ///< total of the base weighed by place over its own
-    SparseRows adjacency;
-    SparseRows overlap;
+    SharedSparseRows adjacency;
+    SharedSparseRows overlap;
     double adjacency_scale = 0.0;
     double overlap_scale = 0.0;
-    SparseRows within_mesh_affinity;  ///< A' + O', complete: what a patch set aside follows
+    SharedSparseRows within_mesh_affinity;  ///< A' + O', complete: what a patch set aside follows
 };
 
 /// Whether a start's graph is weighed by position.

@@ -185,8 +185,9 @@ CountedParts count_parts(const Comm& comm, const CutInput& input, CutOptions opt
     options.starts = counting_starts(options.starts);
     const auto [neighbors, overlaps, terms, one_rank, links_count] = cut_graphs(comm, input, options);
     const GraphInput graphs{neighbors, overlaps, input.mesh_of, input.positions};
-    const PartitionEvidence evidence{neighbors,     overlaps,         input.descriptors,
-                                     input.mesh_of, input.patch_area, links_count ? &terms.base : nullptr};
+    const PartitionEvidence evidence{
+        neighbors,     overlaps,         input.descriptors,
+        input.mesh_of, input.patch_area, links_count ? std::optional(terms.base.view()) : std::nullopt};
     const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
     const CountTask task{evidence, objective, options.choice};
     std::vector<CountedPartition> mine;

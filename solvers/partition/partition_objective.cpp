@@ -150,7 +150,7 @@ PartitionObjective objective_of(const PartitionEvidence& evidence, const ChoiceW
     }
     objective.meshes = meshes;
     objective.size_weight = weights.size;
-    if (evidence.links != nullptr) {
+    if (evidence.links) {
         const double all = std::accumulate(evidence.links->values.begin(), evidence.links->values.end(), 0.0);
         objective.links = evidence.links;
         // Both halves of a link are inside together.

@@ -62,8 +62,8 @@ struct PartitionObjective {
     std::vector<double> share;                ///< likewise: of the area of its mesh
     int meshes = 0;
     double size_weight = 0.0;
-    const SparseRows* links = nullptr;  ///< as in PartitionEvidence; not owned
-    double link_gain = 0.0;             ///< of a link of weight 1 between patches of the same part
+    std::optional<SparseRowsView> links;  ///< as in PartitionEvidence; not owned
+    double link_gain = 0.0;               ///< of a link of weight 1 between patches of the same part
 };
 
 /// In the memory of this rank alone.
@@ -81,8 +81,8 @@ std::vector<BlockRange> patches_of_meshes(const PartitionObjective& objective);
 template <class Visit>
 void for_each_tie(const PartitionObjective& objective, int i, Visit&& visit) {
     for (const PatchTie& tie : objective.ties[at(i)]) visit(tie.other, tie.gain);
-    if (objective.links == nullptr) return;
-    const SparseRows& links = *objective.links;
+    if (!objective.links) return;
+    const SparseRowsView& links = *objective.links;
     for (auto k = at(links.offsets[at(i)]); k < at(links.offsets[at(i) + 1]); ++k)
         visit(links.columns[k], objective.link_gain * links.values[k]);
 }

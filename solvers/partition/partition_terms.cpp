@@ -98,7 +98,7 @@ double size_steadiness(const Eigen::MatrixXd& shares) {
     return -unsteady;
 }
 
-double links_inside(const SparseRows& links, const std::vector<int>& labels) {
+double links_inside(const SparseRowsView& links, const std::vector<int>& labels) {
     double all = 0.0;
     double inside = 0.0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -153,7 +153,7 @@ PartitionTerms partition_terms(const PartitionEvidence& evidence, const std::vec
     terms.overlap = overlap_agreement(evidence.overlaps, labels, evidence.patch_area);
     terms.concavity = boundary_concavity(evidence.neighbors, labels);
     terms.size = size_steadiness(shares);
-    if (evidence.links != nullptr) terms.links = links_inside(*evidence.links, labels);
+    if (evidence.links) terms.links = links_inside(*evidence.links, labels);
     return terms;
 }
 

@@ -2,6 +2,7 @@
 // The terms that speak for a partition, found without labels to compare with, and the score that they make.
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,9 +35,9 @@ struct PartitionEvidence {
     std::span<const ChoiceDescriptor> descriptors;
     const std::vector<int>& mesh_of;  ///< of each patch, 0 .. M-1
     const std::vector<double>& patch_area;
-    /// All rows of the affinity between meshes; null where no rank holds them all, and links then do not
+    /// All rows of the affinity between meshes; none where no node holds them all, and links then do not
     /// count.
-    const SparseRows* links = nullptr;
+    std::optional<SparseRowsView> links = std::nullopt;
 };
 
 /// All terms of the partition `labels`, 0 .. parts - 1 per patch.
@@ -74,7 +75,7 @@ double size_steadiness(const Eigen::MatrixXd& shares);
 
 /// The share of all links between meshes, by weight, that join patches of the same part; 0 without links.
 /// `links`: all rows of a symmetric affinity.
-double links_inside(const SparseRows& links, const std::vector<int>& labels);
+double links_inside(const SparseRowsView& links, const std::vector<int>& labels);
 
 /// The spread is the sum over patches of a |x - mean of the mesh|^2, where x is the histogram and a the area
 /// of the patch.

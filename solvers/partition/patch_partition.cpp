@@ -272,8 +272,9 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
     }
     const auto [neighbors, overlaps, terms, one_rank, links_count] = cut_graphs(comm, input, options);
     const GraphInput graphs{neighbors, overlaps, input.mesh_of, input.positions};
-    const PartitionEvidence evidence{neighbors,     overlaps,         input.descriptors,
-                                     input.mesh_of, input.patch_area, links_count ? &terms.base : nullptr};
+    const PartitionEvidence evidence{
+        neighbors,     overlaps,         input.descriptors,
+        input.mesh_of, input.patch_area, links_count ? std::optional(terms.base.view()) : std::nullopt};
     const ClusteringTask all_starts{graphs,       terms, options.starts, options.spectral, options.drop_below,
                                     options.parts};
     const std::vector<CutStart> starts =

@@ -23,7 +23,7 @@ std::vector<int> cluster_sizes(const std::vector<int>& labels, int clusters) {
 
 /// Everything that the clusterings of one graph share.
 struct GraphCut {
-    const SparseRows& within_mesh_affinity;
+    SparseRowsView within_mesh_affinity;
     const SpectralEmbedding& embedding;
     std::int64_t patches = 0;
 };
@@ -72,7 +72,7 @@ std::vector<PartitionCandidate> clusterings_of_graph(const Comm& group, const Cl
     spectral.sums = sums;
     const SpectralEmbedding embedding =
         spectral_embedding(group, std::move(graph), task.parts, count, spectral, task.graphs.mesh_of);
-    const GraphCut cut{task.terms.within_mesh_affinity, embedding, task.terms.base.size};
+    const GraphCut cut{task.terms.within_mesh_affinity.view(), embedding, task.terms.base.view().size};
     std::vector<PartitionCandidate> clusterings;
     for (const int k : starts) clusterings.push_back(clustering(cut, k, all[at(k)]));
     return clusterings;

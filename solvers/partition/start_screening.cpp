@@ -62,8 +62,8 @@ std::vector<Pair> pairs_of(const MeshSample& sample, const std::vector<Pair>& pa
 }
 
 /// The rows and columns of the sample, all rows on every rank. Collective.
-SparseRows rows_of(const Comm& comm, const MeshSample& sample, const SparseRows& all) {
-    // Where every rank holds all rows, each gives those that it would own.
+SparseRows rows_of(const Comm& comm, const MeshSample& sample, const SparseRowsView& all) {
+    // Where every node holds all rows, each rank gives those that it would own.
     const BlockRange own = block_range(all.size, comm.size(), comm.rank(), row_tile);
     std::vector<SparseEntry> entries;
     for (std::int64_t i = std::max(own.begin, all.rows.begin); i < std::min(own.end, all.rows.end); ++i) {
@@ -136,11 +136,13 @@ std::vector<CutStart> promising_starts(const Comm& comm, const ClusteringTask& w
     const SampledEvidence seen = sampled_evidence(sample, evidence, whole.graphs.positions);
     const GraphInput graphs{seen.neighbors, seen.overlaps, sample.mesh_of,
                             whole.graphs.positions == nullptr ? nullptr : &seen.positions};
-    const GraphTerms terms = graph_terms(Comm(MPI_COMM_SELF), rows_of(comm, sample, whole.terms.base), graphs,
-                                         {.placed = asks_for_positions(whole.starts), .complete = true});
+    const GraphTerms terms =
+        graph_terms(Comm(MPI_COMM_SELF), rows_of(comm, sample, whole.terms.base.view()), graphs,
+                    {.placed = asks_for_positions(whole.starts), .complete = true});
     const std::vector<ChoiceDescriptor> descriptors = sampled_descriptors(seen, evidence.descriptors);
-    const PartitionEvidence sampled{seen.neighbors, seen.overlaps,   descriptors,
-                                    sample.mesh_of, seen.patch_area, evidence.links ? &terms.base : nullptr};
+    const PartitionEvidence sampled{
+        seen.neighbors, seen.overlaps,   descriptors,
+        sample.mesh_of, seen.patch_area, evidence.links ? std::optional(terms.base.view()) : std::nullopt};
     const PartitionObjective objective = partition_objective(sampled, weights);
     const std::vector<PartitionCandidate> candidates = search_partitions(
         comm, {sampled, objective, weights, whole.parts},

@@ -39,7 +39,7 @@ SparseRows diagonal_rows(const SparseRows& like, const std::vector<double>& diag
 
 SparseRows plus_diagonal(const SparseRows& matrix, const std::vector<double>& diagonal) {
     const SparseRows addend = diagonal_rows(matrix, diagonal);
-    const WeightedMatrix terms[] = {{&matrix, 1.0}, {&addend, 1.0}};
+    const WeightedMatrix terms[] = {{matrix, 1.0}, {addend, 1.0}};
     return weighted_sum(terms);
 }
 

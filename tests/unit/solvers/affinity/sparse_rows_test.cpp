@@ -23,11 +23,11 @@ TEST(SparseRows, EntriesOfOnePlaceAreAddedInAnyOrder) {
 TEST(SparseRows, WeightedSumLeavesOutTermsOfWeightZero) {
     const SparseRows a = rows_from_entries(2, {0, 2}, {{0, 1, 1.0}, {1, 0, 1.0}});
     const SparseRows b = rows_from_entries(2, {0, 2}, {{0, 0, 3.0}, {0, 1, 2.0}});
-    const std::array<WeightedMatrix, 2> both = {{{&a, 2.0}, {&b, 0.5}}};
+    const std::array<WeightedMatrix, 2> both = {{{a, 2.0}, {b, 0.5}}};
     const SparseRows sum = weighted_sum(both);
     EXPECT_EQ(sum.columns, (std::vector<int>{0, 1, 0}));
     EXPECT_EQ(sum.values, (std::vector<double>{1.5, 3.0, 2.0}));
-    const std::array<WeightedMatrix, 2> one = {{{&a, 2.0}, {&b, 0.0}}};
+    const std::array<WeightedMatrix, 2> one = {{{a, 2.0}, {b, 0.0}}};
     EXPECT_EQ(weighted_sum(one).values, (std::vector<double>{2.0, 2.0}));
 }
 

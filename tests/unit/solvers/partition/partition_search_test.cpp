@@ -60,7 +60,7 @@ struct RandomCollection {
     }
 
     [[nodiscard]] PartitionEvidence evidence() const {
-        return {neighbors, overlaps, descriptors, mesh_of, area, &links};
+        return {neighbors, overlaps, descriptors, mesh_of, area, links};
     }
     [[nodiscard]] double score(const std::vector<int>& labels, int parts) const {
         return partition_score(partition_terms(evidence(), labels, parts), weights, descriptors);
