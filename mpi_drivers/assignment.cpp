@@ -7,6 +7,7 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "mpi_drivers/options/named_options.hpp"
+#include "mpi_drivers/partition/example_stage.hpp"
 #include "mpi_drivers/process/checked_petsc.hpp"
 #include "mpi_drivers/results/run_folders.hpp"
 #include "mpi_drivers/results/run_results.hpp"
@@ -42,11 +43,12 @@ AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, c
         patch_features(comm, collection, std::move(weighted), feature_options, &model.bins, log);
 
     // Its patches' coefficients over the run's patches, and labels that spread from these.
-    Assigned assigned = assign_parts(comm, collection, features, model, optimise, log);
+    const GivenLabels examples = read_given_labels(comm, collection, partition, log);
+    Assigned assigned = assign_parts(comm, {collection, features, model, examples.patches}, optimise, log);
 
     // The parts of faces, as in the run.
     std::vector<MeshLabels> labels =
-        label_faces(collection, assigned.cut, partition.parts, output.refine, log);
+        label_faces(collection, assigned.cut, partition.parts, output.refine, log, examples.faces);
 
     std::vector<OptionValue> values = option_values(options);
     values.push_back({"to", run, Affects::cut});

@@ -173,6 +173,7 @@ struct SegmentArguments {
     std::string folder;
     bool replace = false;
     std::string state;
+    std::string examples;  ///< of assign alone
 };
 
 py::dict segment(const std::vector<GivenShape>& given, const SegmentArguments& a,
@@ -194,7 +195,7 @@ py::dict assign(const std::vector<GivenShape>& given, const HeldModel& held, con
                 const Communicator& communicator, const py::object& progress) {
     const std::vector<coseg::Shape> shapes = shapes_of(given);
     return dict_of(in_call(communicator, progress, [&](const coseg::Call& call) {
-        return coseg::assign(shapes, held.model, {a.strict, a.folder, a.replace, a.state}, call);
+        return coseg::assign(shapes, held.model, {a.strict, a.folder, a.replace, a.state, a.examples}, call);
     }));
 }
 
@@ -338,7 +339,8 @@ void add_arguments(py::module_& module) {
         .def_readwrite("keep_model", &SegmentArguments::keep_model)
         .def_readwrite("folder", &SegmentArguments::folder)
         .def_readwrite("replace", &SegmentArguments::replace)
-        .def_readwrite("state", &SegmentArguments::state);
+        .def_readwrite("state", &SegmentArguments::state)
+        .def_readwrite("examples", &SegmentArguments::examples);
     using Settings = coseg::ClusterSettings;
     py::class_<Settings>(module, "ClusterSettings")
         .def(py::init<>())

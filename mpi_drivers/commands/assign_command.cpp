@@ -42,6 +42,11 @@ Command add_assign_command(CLI::App& parent) {
     app->add_option("--face-features", own.features.face_features,
                     "Folder with what the run had of its shapes, of the new ones; see coseg run --help")
         ->type_name("DIR");
+    app->add_option(
+           "--examples", own.partition.examples,
+           "Folder with NAME.seg for some of the new shapes: one part of the run for each face, or -1 where "
+           "nothing is said. These faces keep their parts, and new shapes that are like them follow")
+        ->type_name("DIR");
     app->add_option("--ranks", options->ranks,
                     "Ranks of a command that is started without mpirun; 0: one for each core")
         ->check(CLI::Range(0, 100000));

@@ -155,6 +155,7 @@ Segmentation assigned(LibraryCall& library, std::span<const Shape> given, const 
     own.output.force = settings.replace;
     own.process.strict = settings.strict;
     own.process.state = settings.state;
+    own.partition.examples = settings.examples;
     own.process.watches_signals = false;
     AssignedLabels done = assign(comm, &shapes.entries(), model.run, model.name, own, library.log());
     Segmentation result;

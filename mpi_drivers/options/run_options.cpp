@@ -119,6 +119,7 @@ RunOptions options_of_assignment(const RunOptions& run, const RunOptions& own) {
     options.output.refine = run.output.refine;
     options.output.keep_model = false;
     options.features.face_features = own.features.face_features;
+    options.partition.examples = own.partition.examples;
     return options;
 }
 

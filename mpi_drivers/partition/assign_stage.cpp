@@ -105,30 +105,134 @@ SolveSummary own_share(const SolveResult& result, const PatchFeatures& features,
 }
 
 struct MeshOutcome {
-    std::vector<int> parts;
+    std::vector<int> parts;  ///< of the mesh's patches
     AssignedMesh figures;
 };
 
-MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Collection& collection,
-                        const PatchFeatures& features, const RunModel& model,
-                        const OptimiseOptions& options) {
-    const int first = collection.numbering.first(mesh.mesh, 0);
-    const int count = collection.numbering.count(mesh.mesh);
-    const SubspaceProblem problem = problem_of(self, model, features, first, count);
+/// The meshes of which examples say something, on all ranks.
+std::vector<char> labelled_meshes(const AssignInput& input) {
+    std::vector<char> labelled(input.collection.meshes.size(), 0);
+    const std::vector<int> mesh_of = input.collection.numbering.mesh_of();
+    for (Eigen::Index i = 0; i < input.examples.area.cols(); ++i) {
+        if (input.examples.area.col(i).sum() > 0.0) labelled[at(mesh_of[at(i)])] = 1;
+    }
+    return labelled;
+}
+
+MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const AssignInput& input,
+                        const std::vector<int>& known, const OptimiseOptions& options) {
+    const int first = input.collection.numbering.first(mesh.mesh, 0);
+    const int count = input.collection.numbering.count(mesh.mesh);
+    const SubspaceProblem problem = problem_of(self, input.model, input.features, first, count);
     const SolveOptions solve{
         .gap = options.gap, .max_iterations = options.max_iterations, .max_seconds = options.max_seconds};
     const SolveResult result = solve_subspace(self, problem, solve);
     MeshOutcome outcome;
-    outcome.figures = {mesh.mesh, own_share(result, features, first, count), allowed_pair_count(problem)};
-    outcome.parts = propagate_labels(
-        propagation_input(mesh, collection.numbering, evidence_of(result.coefficients, model, count)),
-        assign_bonds);
+    outcome.figures = {mesh.mesh, own_share(result, input.features, first, count),
+                       allowed_pair_count(problem)};
+    PropagationInput propagation = propagation_input(mesh, input.collection.numbering,
+                                                     evidence_of(result.coefficients, input.model, count));
+    if (!known.empty()) propagation.known.assign(known.begin() + first, known.begin() + first + count);
+    outcome.parts = propagate_labels(propagation, assign_bonds);
     if (std::find(outcome.parts.begin(), outcome.parts.end(), -1) != outcome.parts.end()) {
         throw Error(ExitCode::input,
-                    collection.meshes[at(mesh.mesh)].path +
+                    input.collection.meshes[at(mesh.mesh)].path +
                         ": patches of it have nothing in common with the run's shapes; leave it out");
     }
     return outcome;
+}
+
+/// Of this rank's meshes those that are labelled, or those that are not.
+std::vector<MeshOutcome> assign_meshes(const AssignInput& input, const std::vector<char>& labelled,
+                                       bool which, const OptimiseOptions& options) {
+    const Comm self(MPI_COMM_SELF);
+    std::vector<int> known;
+    if (which) known = known_labels(input.examples, input.features.patch_area);
+    std::vector<MeshOutcome> outcomes;
+    for (const MeshDescription& mesh : input.collection.local) {
+        if ((labelled[at(mesh.mesh)] != 0) == which)
+            outcomes.push_back(assign_mesh(self, mesh, input, known, options));
+    }
+    return outcomes;
+}
+
+/// Parts of the patches of one mesh, for other ranks.
+struct PartsOfMesh {
+    int mesh = 0;
+    std::vector<int> parts;
+    static constexpr auto fields() {
+        return std::tuple(field("mesh", &PartsOfMesh::mesh), field("parts", &PartsOfMesh::parts));
+    }
+};
+
+/// Of all ranks, in the order of meshes. Collective.
+std::vector<PartsOfMesh> gather_parts(const Comm& comm, const std::vector<MeshOutcome>& outcomes) {
+    std::vector<PartsOfMesh> local;
+    for (const MeshOutcome& outcome : outcomes) local.push_back({outcome.figures.mesh, outcome.parts});
+    std::vector<PartsOfMesh> all = all_gather_records(comm, local);
+    std::sort(all.begin(), all.end(),
+              [](const PartsOfMesh& a, const PartsOfMesh& b) { return a.mesh < b.mesh; });
+    return all;
+}
+
+/// The model, as if these new meshes had been in its run.
+RunModel with_meshes(RunModel model, const AssignInput& input, const std::vector<PartsOfMesh>& meshes) {
+    for (const PartsOfMesh& mesh : meshes) {
+        const auto number = static_cast<int>(model.mesh_names.size());
+        const auto count = static_cast<Eigen::Index>(mesh.parts.size());
+        const int first = input.collection.numbering.first(mesh.mesh, 0);
+        for (std::size_t h = 0; h < model.histograms.size(); ++h) {
+            Eigen::MatrixXd& known = model.histograms[h];
+            known.conservativeResize(Eigen::NoChange, known.cols() + count);
+            known.rightCols(count) =
+                input.features.histograms[h].middleCols(first, count).cast<float>().cast<double>();
+        }
+        model.mesh_of.insert(model.mesh_of.end(), mesh.parts.size(), number);
+        model.mesh_names.push_back(input.collection.meshes[at(mesh.mesh)].name);
+        model.part_of_patch.insert(model.part_of_patch.end(), mesh.parts.begin(), mesh.parts.end());
+    }
+    return model;
+}
+
+/// First the meshes of which examples say something, then the others; of this rank, in the order of meshes.
+/// Collective.
+std::vector<MeshOutcome> assign_by_examples(const Comm& comm, const AssignInput& input,
+                                            const OptimiseOptions& options) {
+    const std::vector<char> labelled = labelled_meshes(input);
+    std::vector<MeshOutcome> outcomes;
+    agree(comm, [&] { outcomes = assign_meshes(input, labelled, true, options); });
+    const RunModel model = with_meshes(input.model, input, gather_parts(comm, outcomes));
+    agree(comm, [&] {
+        const AssignInput others{input.collection, input.features, model, input.examples};
+        for (MeshOutcome& outcome : assign_meshes(others, labelled, false, options))
+            outcomes.push_back(std::move(outcome));
+    });
+    std::sort(outcomes.begin(), outcomes.end(),
+              [](const MeshOutcome& a, const MeshOutcome& b) { return a.figures.mesh < b.figures.mesh; });
+    return outcomes;
+}
+
+/// Collective.
+std::vector<MeshOutcome> assign_alone(const Comm& comm, const AssignInput& input,
+                                      const OptimiseOptions& options) {
+    const std::vector<char> none(input.collection.meshes.size(), 0);
+    std::vector<MeshOutcome> outcomes;
+    agree(comm, [&] { outcomes = assign_meshes(input, none, false, options); });
+    return outcomes;
+}
+
+/// Of all patches, on all ranks. Collective.
+std::vector<int> parts_of_patches(const Comm& comm, const Collection& collection,
+                                  const std::vector<MeshOutcome>& outcomes) {
+    std::vector<Eigen::MatrixXd> local;
+    for (const MeshOutcome& outcome : outcomes)
+        local.emplace_back(Eigen::Map<const Eigen::RowVectorXi>(
+                               outcome.parts.data(), static_cast<Eigen::Index>(outcome.parts.size()))
+                               .cast<double>());
+    std::vector<int> parts;
+    for (const double part : gather_patch_columns(comm, collection, local, 1).reshaped())
+        parts.push_back(static_cast<int>(part));
+    return parts;
 }
 
 SolveSummary summed(const std::vector<AssignedMesh>& meshes) {
@@ -161,32 +265,22 @@ std::vector<AssignedMesh> gather_figures(const Comm& comm, const std::vector<Mes
 
 }  // namespace
 
-Assigned assign_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunModel& model, const OptimiseOptions& options, StageLog& log) {
+Assigned assign_parts(const Comm& comm, const AssignInput& input, const OptimiseOptions& options,
+                      StageLog& log) {
     log.begin("assign");
-    const Comm self(MPI_COMM_SELF);
-    std::vector<MeshOutcome> outcomes;
-    std::vector<Eigen::MatrixXd> parts_local;
-    agree(comm, [&] {
-        for (const MeshDescription& mesh : collection.local) {
-            outcomes.push_back(assign_mesh(self, mesh, collection, features, model, options));
-            const std::vector<int>& parts = outcomes.back().parts;
-            parts_local.emplace_back(
-                Eigen::Map<const Eigen::RowVectorXi>(parts.data(), static_cast<Eigen::Index>(parts.size()))
-                    .cast<double>());
-        }
-    });
-    const Eigen::MatrixXd all = gather_patch_columns(comm, collection, parts_local, 1);
+    const std::vector<MeshOutcome> outcomes = input.examples.empty()
+                                                  ? assign_alone(comm, input, options)
+                                                  : assign_by_examples(comm, input, options);
     const std::vector<AssignedMesh> figures = gather_figures(comm, outcomes);
     Assigned assigned;
-    for (const double part : all.reshaped()) assigned.cut.part_of_patch.push_back(static_cast<int>(part));
+    assigned.cut.part_of_patch = parts_of_patches(comm, input.collection, outcomes);
     Optimisation& optimisation = assigned.optimisation;
     static_cast<SolveSummary&>(optimisation.result) = summed(figures);
     optimisation.variant = to_string(SubspaceVariant::multi_feature);
     optimisation.scope = to_string(PenaltyScope::meshes);
-    optimisation.links = static_cast<int>(model.mesh_names.size());
+    optimisation.links = static_cast<int>(input.model.mesh_names.size());
     for (const AssignedMesh& mesh : figures) optimisation.allowed_pairs += mesh.allowed_pairs;
-    for (const Descriptor& descriptor : features.descriptors)
+    for (const Descriptor& descriptor : input.features.descriptors)
         optimisation.features.push_back(descriptor.name);
     SparseCoefficients& none = optimisation.result.coefficients;
     none.size = static_cast<std::int64_t>(assigned.cut.part_of_patch.size());

@@ -5,6 +5,7 @@
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
 #include "mpi_drivers/partition/run_model.hpp"
+#include "solvers/partition/labelled_parts.hpp"
 
 namespace coseg {
 
@@ -12,6 +13,14 @@ namespace coseg {
 /// the mean accuracies of the shapes that bench/assign.py leaves out of chairs, aeroplanes and pliers change
 /// by at most 1.8 points. Of single shapes chair 12 changes most, from 87.6 to 99.0.
 inline constexpr double assign_bonds = 1.0;
+
+/// What is assigned, and to what.
+struct AssignInput {
+    const Collection& collection;
+    const PatchFeatures& features;
+    const RunModel& model;
+    const ExampleLabels& examples;  ///< of the collection's patches; empty where nothing is known
+};
 
 struct Assigned {
     /// Bounds and gap of all new columns. The coefficients are left out, because their rows are no patches of
@@ -21,11 +30,12 @@ struct Assigned {
 };
 
 /// Solves each mesh on the rank that holds it, with the run's patches as rows of the problem of mesh scope
-/// (also where the run had another scope or variant). The mesh takes labels by propagate_labels. The result
-/// is a function of the model and the mesh alone. `options` hold the limits of the solves. Collective. Throws
+/// (also where the run had another scope or variant). The mesh takes labels by propagate_labels. Meshes of which
+/// examples say something come first, with what is known held; to all others they are then as good as shapes of
+/// the run. The result is a function of the model, the examples and the mesh alone. `options` hold the limits of the solves. Collective. Throws
 /// AgreedError: input where a mesh has nothing in common with the run, not_converged where a limit ends the
 /// solve.
-Assigned assign_parts(const Comm& comm, const Collection& collection, const PatchFeatures& features,
-                      const RunModel& model, const OptimiseOptions& options, StageLog& log);
+Assigned assign_parts(const Comm& comm, const AssignInput& input, const OptimiseOptions& options,
+                      StageLog& log);
 
 }  // namespace coseg

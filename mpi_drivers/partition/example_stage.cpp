@@ -48,10 +48,10 @@ std::vector<int> read_example(const std::string& path, int parts, int faces = -1
         if (labels[f] >= -1 && labels[f] < parts) continue;
         const std::string where =
             path + ": face " + std::to_string(f) + " has label " + std::to_string(labels[f]);
-        throw Error(ExitCode::input, labels[f] < 0
-                                         ? where + "; labels are 0, 1, ..., or -1 where nothing is said"
-                                         : where + ", but there are " + std::to_string(parts) +
-                                               " parts; labels count from 0, and --parts says how many");
+        throw Error(ExitCode::input,
+                    labels[f] < 0
+                        ? where + "; labels are 0, 1, ..., or -1 where nothing is said"
+                        : where + ", but there are " + std::to_string(parts) + " parts; labels count from 0");
     }
     return labels;
 }
@@ -126,8 +126,8 @@ RunOptions with_parts_of_examples(const Comm& comm, const RunOptions& options) {
     return result;
 }
 
-GivenLabels read_examples(const Comm& comm, const Collection& collection, const PartitionOptions& options,
-                          StageLog& log) {
+GivenLabels read_given_labels(const Comm& comm, const Collection& collection, const PartitionOptions& options,
+                              StageLog& log) {
     GivenLabels given;
     if (options.examples.empty()) return given;
     log.begin("examples");
@@ -146,8 +146,14 @@ GivenLabels read_examples(const Comm& comm, const Collection& collection, const 
         }
     });
     given.patches.area = gather_patch_columns(comm, collection, local, options.parts);
-    warn_of_labels_without_example(given.patches.area, log);
     log.end(with_unit(static_cast<std::int64_t>(names.size()), "shape with labels", "shapes with labels"));
+    return given;
+}
+
+GivenLabels read_examples(const Comm& comm, const Collection& collection, const PartitionOptions& options,
+                          StageLog& log) {
+    GivenLabels given = read_given_labels(comm, collection, options, log);
+    warn_of_labels_without_example(given.patches.area, log);
     return given;
 }
 

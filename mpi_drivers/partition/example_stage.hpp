@@ -30,10 +30,14 @@ struct GivenLabels {
     std::vector<std::vector<int>> faces;
 };
 
-/// Each rank reads the labels of its meshes, FOLDER/NAME.seg. folder: "" for none. The log has the stage
-/// "examples", and a warning for each label below `parts` that no example shows. Collective. Throws
-/// AgreedError(input) where a file has not one label for each face, or is named like no shape of the
-/// collection.
+/// Each rank reads the labels of its meshes, FOLDER/NAME.seg, where options.examples is FOLDER; "" for none.
+/// The log has the stage "examples". Collective. Throws AgreedError(input) where a file has not one label for
+/// each face, is named like no shape of the collection, or has a label that is not below options.parts.
+GivenLabels read_given_labels(const Comm& comm, const Collection& collection, const PartitionOptions& options,
+                              StageLog& log);
+
+/// The same of a collection that is to be segmented, with a warning for each label below options.parts that no
+/// example shows.
 GivenLabels read_examples(const Comm& comm, const Collection& collection, const PartitionOptions& options,
                           StageLog& log);
 

@@ -208,13 +208,15 @@ def segment(meshes: MeshesLike, parts: Union[int, str], *, names: Optional[Seque
 
 
 def assign(meshes: MeshesLike, to: Union[Result, str, "os.PathLike[str]"], *,
-           names: Optional[Sequence[str]] = None, out: Any = None, replace: bool = False, state: Any = None,
-           strict: bool = True, comm: Any = None, progress: Optional[Progress] = None) -> Result:
+           names: Optional[Sequence[str]] = None, examples: Any = None, out: Any = None, replace: bool = False,
+           state: Any = None, strict: bool = True, comm: Any = None, progress: Optional[Progress] = None) -> Result:
     """Labels new shapes like those of a finished run, in seconds and without solving it again.
 
     Args:
         meshes: the new shapes, as in segment().
         to: a Result of segment(), or the folder of a run.
+        examples: a folder with NAME.seg for some of the new shapes: one part of the run for each face, or -1
+            where nothing is said. These faces keep their parts, and new shapes that are like them follow.
         Others: as in segment(). Options are those of the run.
 
     Returns:
@@ -228,9 +230,10 @@ def assign(meshes: MeshesLike, to: Union[Result, str, "os.PathLike[str]"], *,
     else:
         model = None
     shapes = given_shapes(meshes, names)
+    arguments = _arguments(strict, out, replace, state)
+    arguments.examples = given_path(examples)
     with translated():
         if model is None:
             model = _core.load_model(to.folder if isinstance(to, Result) else given_path(to), communicator)
-        raw = _core.assign(shapes, model, _arguments(strict, out, replace, state), communicator,
-                           given_progress(progress))
+        raw = _core.assign(shapes, model, arguments, communicator, given_progress(progress))
     return _result(raw, None if out is None else os.fsdecode(out))

@@ -15,9 +15,12 @@ struct PropagationInput {
     Eigen::MatrixXd evidence;
     std::vector<GlobalPatchNeighbors> neighbors;  ///< patches 0 .. n - 1 of one mesh
     std::vector<GlobalPatchOverlap> overlaps;     ///< likewise
+    /// Of each patch the part that it is known to have, or -1; empty where nothing is known of any.
+    std::vector<int> known = {};
 };
 
-/// The part of each patch. Known parts are held, and the others take the minimum of the same quadratic form
+/// The part of each patch. Known parts, of the patches that links lead to and of this mesh, are held, and the
+/// others take the minimum of the same quadratic form
 /// as the cut's, sum over pairs of S_ij ||f_i - f_j||^2, in the graph S = C + g (A + O) of affinity.hpp. Here
 /// g = `within_mesh_affinity`, and A and O are scaled to the total of C. A patch takes the part of its
 /// largest value, the lowest one if several are equal. Patches without any tie to a known part get -1.

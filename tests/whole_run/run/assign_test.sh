@@ -59,6 +59,35 @@ diff -r "$work/kept2/labels" "$work/new1/labels" || fail "labels with a state fo
 python3 -c 'import json, sys; state = json.load(open(sys.argv[1]))["state"]; sys.exit(state["meshes_reused"] != 2)' \
     "$work/kept2/report.json" || fail "descriptions are not taken from the state folder"
 
+# Labels of some faces of new shapes: the first half of the faces of one shape has part 0, whatever the run says.
+mkdir "$work/examples"
+python3 - "$work/new1/labels/goblet_0006.seg" "$work/examples/goblet_0006.seg" <<'END'
+import sys
+labels = open(sys.argv[1]).read().split()
+half = len(labels) // 2
+open(sys.argv[2], "w").write("\n".join(["0"] * half + ["-1"] * (len(labels) - half)) + "\n")
+END
+for count in 1 2 4; do
+    ranks $count "${assign[@]}" --examples "$work/examples" --out "$work/by_example$count" "$work/new"
+    diff -r "$work/by_example1/labels" "$work/by_example$count/labels" || fail "labels by example on 1 and on $count ranks"
+done
+python3 - "$work/examples" "$work/by_example1/labels" "$work/new1/labels" <<'END' || fail "what is said is not kept"
+import sys
+said, got, before = ([int(x) for x in open(folder + "/goblet_0006.seg")] for folder in sys.argv[1:])
+assert all(b == a for a, b in zip(said, got) if a >= 0), "a face has another part than is said"
+assert any(b != c for b, c in zip(got, before)), "nothing was to be said"
+END
+"${assign[@]}" --examples "$work/examples" --out "$work/example_alone" "$work/new/goblet_0006.off"
+cmp "$work/example_alone/labels/goblet_0006.seg" "$work/by_example1/labels/goblet_0006.seg" ||
+    fail "labels of an example depend on what else is assigned"
+cp "$work/examples/goblet_0006.seg" "$work/examples/nobody.seg"
+refuses "an example of no shape" 3 "nobody.seg: no shape of this name" "${assign[@]}" --examples "$work/examples" --out "$work/x" "$work/new"
+rm "$work/examples/nobody.seg"
+sed -i '1s/.*/3/' "$work/examples/goblet_0006.seg"
+refuses "a part that the run has not" 3 "face 0 has label 3, but there are 3 parts" \
+    ranks 2 "${assign[@]}" --examples "$work/examples" --out "$work/x" "$work/new"
+echo "ok: labels of some faces of new shapes are kept"
+
 refuses "no run" 3 "is no run" "$COSEG" assign --to "$work/old" --out "$work/x" "$work/new"
 "$COSEG" run "${bare[@]}" --parts 3 --patches 10 --geodesic-samples 40 --no-choose --no-keep-model --out "$work/bare" "$work/old"
 [[ ! -e $work/bare/model.h5 ]] || fail "--no-keep-model keeps a model"

@@ -55,6 +55,48 @@ TEST(LabelPropagation, SaysWhatNothingReaches) {
     EXPECT_EQ(propagate_labels(input, 1.0), (std::vector<int>{1, 1, -1}));
 }
 
+TEST(LabelPropagation, KnownPatchesAreHeldAndOthersFollowThem) {
+    Eigen::MatrixXd evidence(2, 6);
+    evidence << 0.6, 0.6, 0.6, 0.6, 0.6, 0.6,  //
+        0.4, 0.4, 0.4, 0.4, 0.4, 0.4;
+    PropagationInput input = chain(evidence);
+    EXPECT_EQ(propagate_labels(input, 4.0), std::vector<int>(6, 0));
+    input.known = {1, 1, -1, -1, -1, 0};
+    EXPECT_EQ(propagate_labels(input, 4.0), (std::vector<int>{1, 1, 1, 0, 0, 0}));
+    input.known = {-1, 1, -1, -1, -1, -1};
+    EXPECT_EQ(propagate_labels(input, 0.0), (std::vector<int>{0, 1, 0, 0, 0, 0}))
+        << "without ties nothing follows";
+    input.known = {1, 0, 1, 0, 1, 0};
+    EXPECT_EQ(propagate_labels(input, 9.0), input.known);
+}
+
+/// Patches of which one is known have the values that they would have with that patch's links to its part alone,
+/// in the limit of many of them.
+TEST(LabelPropagation, ToBeKnownIsToHaveEndlessLinksToThePart) {
+    Eigen::MatrixXd evidence(2, 5);
+    evidence << 0.7, 0.9, 0.52, 0.45, 0.1,  //
+        0.3, 0.1, 0.48, 0.55, 0.9;
+    for (int patch = 0; patch < 5; ++patch) {
+        for (int part = 0; part < 2; ++part) {
+            PropagationInput known = chain(evidence);
+            known.known.assign(5, -1);
+            known.known[static_cast<std::size_t>(patch)] = part;
+            PropagationInput linked = chain(evidence);
+            linked.evidence.col(patch).setZero();
+            linked.evidence(part, patch) = 1e6;
+            // The ties have the total of the links, so that as much less of them is the same.
+            const double share = evidence.sum() / linked.evidence.sum();
+            EXPECT_EQ(propagate_labels(known, 3.0), propagate_labels(linked, 3.0 * share)) << patch << part;
+        }
+    }
+}
+
+TEST(LabelPropagation, RefusesKnownPartsOfOtherPatches) {
+    PropagationInput input = chain(Eigen::MatrixXd::Ones(2, 3));
+    input.known = {0, 1};
+    EXPECT_THROW(propagate_labels(input, 1.0), Error);
+}
+
 TEST(LabelPropagation, RefusesEmptyEvidence) { EXPECT_THROW(propagate_labels({}, 1.0), Error); }
 
 }  // namespace
