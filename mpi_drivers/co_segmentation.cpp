@@ -57,8 +57,8 @@ PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entri
         write_features(comm, collection, features, folders.results() + "/features.h5");
     std::vector<NamedRange> ranges = features.ranges;
     ModelPatches model;
-    if (output.keep_model && (comm.is_root() || entries != nullptr))
-        model = model_patches(collection, features, optimise.seed);
+    if (output.keep_model)
+        model = model_patches(comm, collection, features, optimise.seed, entries != nullptr);
     folders.end_if_asked(comm, "all meshes");
     GivenLabels examples = read_examples(comm, collection, partition, log);
 
@@ -71,6 +71,7 @@ PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entri
         {optimise, partition, examples.patches, checkpoints.tiles(), checkpoints.cuts()}, log);
     if (keeps_features)
         kept.positions = turned_positions(alignment, kept.positions, collection.numbering.mesh_of());
+    if (!alignment.applied()) model.places.frame = cut.frame;
     checkpoints.warn_of_damage(log);
     folders.end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
     RunOptions counted = options;

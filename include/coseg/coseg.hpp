@@ -217,8 +217,8 @@ struct AssignOptions {
     std::string folder;
     bool replace = false;
     std::string state = "";
-    /// A folder with NAME.seg for some of the new shapes: one part of the run for each face, or -1 where nothing
-    /// is said. These faces keep their parts, and new shapes that are like them follow. Empty: none.
+    /// A folder with NAME.seg for some of the new shapes: one part of the run for each face, or -1 where
+    /// nothing is said. These faces keep their parts, and new shapes that are like them follow. Empty: none.
     std::string examples = "";
 };
 

@@ -10,38 +10,52 @@
 
 namespace coseg {
 
+namespace {
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+std::vector<GlobalPatchNeighbors> neighbors_of(const MeshDescription& mesh, int first) {
+    std::vector<GlobalPatchNeighbors> pairs;
+    for (std::size_t s = 0; s < mesh.neighbors.size(); ++s) {
+        for (const PatchNeighbors& n : mesh.neighbors[s])
+            pairs.push_back({first + n.patch_a, first + n.patch_b, n.boundary_length, n.concavity});
+        first += mesh.patch_counts[s];
+    }
+    return pairs;
+}
+
+std::vector<GlobalPatchOverlap> overlaps_of(const MeshDescription& mesh, int first) {
+    std::vector<int> begin = {first};
+    for (const int count : mesh.patch_counts) begin.push_back(begin.back() + count);
+    std::vector<GlobalPatchOverlap> pairs;
+    for (const OverlapsOfPair& of_pair : mesh.overlaps) {
+        for (const PatchOverlap& o : of_pair.overlaps)
+            pairs.push_back({begin[at(of_pair.oversegmentation_a)] + o.patch_a,
+                             begin[at(of_pair.oversegmentation_b)] + o.patch_b, o.intersection_over_union});
+    }
+    return pairs;
+}
+
 std::vector<GlobalPatchNeighbors> local_neighbors(const Collection& collection) {
     std::vector<GlobalPatchNeighbors> relations;
-    for (const MeshDescription& mesh : collection.local) {
-        for (std::size_t s = 0; s < mesh.neighbors.size(); ++s) {
-            const int first = collection.numbering.first(mesh.mesh, static_cast<int>(s));
-            for (const PatchNeighbors& n : mesh.neighbors[s]) {
-                relations.push_back({first + n.patch_a, first + n.patch_b, n.boundary_length, n.concavity});
-            }
-        }
-    }
+    for (const MeshDescription& mesh : collection.local)
+        append(relations, neighbors_of(mesh, collection.numbering.first(mesh.mesh, 0)));
     return relations;
 }
 
 std::vector<GlobalPatchOverlap> local_overlaps(const Collection& collection) {
     std::vector<GlobalPatchOverlap> relations;
-    for (const MeshDescription& mesh : collection.local) {
-        for (const OverlapsOfPair& pair : mesh.overlaps) {
-            const int first_a = collection.numbering.first(mesh.mesh, pair.oversegmentation_a);
-            const int first_b = collection.numbering.first(mesh.mesh, pair.oversegmentation_b);
-            for (const PatchOverlap& o : pair.overlaps) {
-                relations.push_back({first_a + o.patch_a, first_b + o.patch_b, o.intersection_over_union});
-            }
-        }
-    }
+    for (const MeshDescription& mesh : collection.local)
+        append(relations, overlaps_of(mesh, collection.numbering.first(mesh.mesh, 0)));
     return relations;
 }
 
 namespace {
-
-void append(std::vector<CutStart>& starts, const std::vector<CutStart>& more) {
-    starts.insert(starts.end(), more.begin(), more.end());
-}
 
 /// Whether the cut and its choice look at where patches lie.
 bool looks_at_positions(const Eigen::Matrix3Xd& positions, const PartitionOptions& options) {
@@ -58,7 +72,8 @@ std::vector<BetweenPartVariance> choice_weights(const PatchNumbering& numbering,
         const auto [pooled, per_mesh] = features.descriptors[h].partition;
         weights.push_back({.pooled = weight * pooled, .per_mesh = weight * per_mesh});
     }
-    if (looks_at_positions(features.positions, options)) weights.push_back({.pooled = 7.0, .per_mesh = 0.0});
+    if (looks_at_positions(features.positions, options))
+        weights.push_back({.pooled = position_weight, .per_mesh = 0.0});
     return weights;
 }
 
@@ -75,8 +90,10 @@ int part_number(const CountedParts& counted) {
 
 double share_weight(const PatchNumbering& numbering) {
     const double segmentations = static_cast<double>(numbering.mesh_count()) * numbering.oversegmentations();
-    return std::pow(numbering.patch_count() / segmentations / 50.0, 0.6);
+    return share_weight(numbering.patch_count() / segmentations);
 }
+
+double share_weight(double patches) { return std::pow(patches / 50.0, 0.6); }
 
 std::vector<ChoiceDescriptor> PartitionInput::choice() const {
     std::vector<ChoiceDescriptor> descriptors;

@@ -10,9 +10,16 @@
 
 namespace coseg {
 
+/// The pairs of patches of a mesh that touch or overlap, where `first` is the number of its first patch.
+std::vector<GlobalPatchNeighbors> neighbors_of(const MeshDescription& mesh, int first);
+std::vector<GlobalPatchOverlap> overlaps_of(const MeshDescription& mesh, int first);
+
 /// The pairs of patches of this rank's meshes that touch or overlap, in global numbers.
 std::vector<GlobalPatchNeighbors> local_neighbors(const Collection& collection);
 std::vector<GlobalPatchOverlap> local_overlaps(const Collection& collection);
+
+/// The weight in the choice of the share that parts explain of the positions of patches, pooled over meshes.
+inline constexpr double position_weight = 7.0;
 
 /// The data that a cut uses, apart from the coefficients.
 struct PartitionInput {
@@ -42,6 +49,8 @@ struct PartitionInput {
 /// (p / 50)^0.6 for p patches in the mean over-segmentation. Histograms of smaller patches scatter more, so
 /// that the same parts explain less of them (docs/method.md, section 7). `numbering` has at least one mesh.
 double share_weight(const PatchNumbering& numbering);
+/// The same of a collection with `patches` in the mean over-segmentation.
+double share_weight(double patches);
 
 /// Takes from the features what the cut uses; `examples` are not copied. The rest is freed: in a large
 /// collection it is most of the memory, which the cut needs for its graphs. Collective.

@@ -36,8 +36,8 @@ struct GivenLabels {
 GivenLabels read_given_labels(const Comm& comm, const Collection& collection, const PartitionOptions& options,
                               StageLog& log);
 
-/// The same of a collection that is to be segmented, with a warning for each label below options.parts that no
-/// example shows.
+/// The same of a collection that is to be segmented, with a warning for each label below options.parts that
+/// no example shows.
 GivenLabels read_examples(const Comm& comm, const Collection& collection, const PartitionOptions& options,
                           StageLog& log);
 

@@ -1,13 +1,16 @@
 #include "mpi_drivers/partition/run_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <optional>
 #include <span>
 
 #include "io/files/hdf5_file.hpp"
+#include "io/files/record_file.hpp"
 #include "io/folders/finished_run.hpp"
+#include "mpi_drivers/partition/cut_stage.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "src/base/error.hpp"
@@ -152,6 +155,19 @@ void read_features(const Hdf5Reader& file, RunModel& model) {
     }
 }
 
+bool places_fit(const PatchPlaces& places, std::size_t patches) {
+    const auto is_patch = [&](int p) { return p >= 0 && at(p) < patches; };
+    const auto is_area = [](double area) { return std::isfinite(area) && area >= 0.0; };
+    return places.area.size() == patches && at(places.positions.cols()) == patches &&
+           std::all_of(places.area.begin(), places.area.end(), is_area) && places.positions.allFinite() &&
+           places.frame.mean.allFinite() && places.frame.directions.allFinite() &&
+           places.frame.correlation.allFinite() &&
+           std::all_of(
+               places.neighbors.begin(), places.neighbors.end(), [&](const GlobalPatchNeighbors& pair) {
+                   return is_patch(pair.patch_a) && is_patch(pair.patch_b) && pair.boundary_length >= 0.0;
+               });
+}
+
 bool fits_together(const RunModel& model) {
     const std::size_t patches = model.part_of_patch.size();
     const auto below = [](const std::vector<int>& numbers, std::size_t limit) {
@@ -164,7 +180,8 @@ bool fits_together(const RunModel& model) {
     return patches > 0 && !model.histograms.empty() && columns_fit && model.mesh_of.size() == patches &&
            below(model.mesh_of, model.mesh_names.size()) &&
            model.options.features.weights.size() == descriptor_table().size() &&
-           below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.partition.parts, 0)));
+           below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.partition.parts, 0))) &&
+           places_fit(model.places, patches);
 }
 
 /// Those that a model's file keeps, and defaults elsewhere.
@@ -210,6 +227,33 @@ void write_patches(Hdf5Writer& file, const Collection& collection, const ModelPa
     file.write("mesh_of", places.mesh_of);
     file.write("part_of_patch", places.parts);
     file.write_texts("mesh_names", places.names);
+    write_record(file, "places", patches.places);
+}
+
+/// The patches of these meshes, ascending.
+std::vector<int> columns_of(const Collection& collection, const std::vector<int>& meshes) {
+    std::vector<int> columns;
+    for (const int mesh : meshes) {
+        const int first = collection.numbering.first(mesh, 0);
+        for (int p = first; p < first + collection.numbering.count(mesh); ++p) columns.push_back(p);
+    }
+    return columns;
+}
+
+/// The pairs of neighbours among these patches, ascending, with their numbers there, on all ranks.
+/// Collective.
+std::vector<GlobalPatchNeighbors> kept_neighbors(const Comm& comm, const Collection& collection,
+                                                 const std::vector<int>& columns) {
+    std::vector<GlobalPatchNeighbors> local;
+    for (GlobalPatchNeighbors pair : local_neighbors(collection)) {
+        const auto first = std::lower_bound(columns.begin(), columns.end(), pair.patch_a);
+        if (first == columns.end() || *first != pair.patch_a) continue;
+        const auto second = std::lower_bound(columns.begin(), columns.end(), pair.patch_b);
+        pair.patch_a = static_cast<int>(first - columns.begin());
+        pair.patch_b = static_cast<int>(second - columns.begin());
+        local.push_back(pair);
+    }
+    return gather_patch_pairs(comm, local, static_cast<int>(columns.size()));
 }
 
 int given_dimensions(const ModelPatches& patches) {
@@ -234,18 +278,21 @@ RunModel run_model(const Collection& collection, const ModelPatches& patches,
     model.mesh_of = std::move(places.mesh_of);
     model.part_of_patch = std::move(places.parts);
     model.mesh_names = std::move(places.names);
+    model.places = patches.places;
     return model;
 }
 
-ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed) {
+ModelPatches model_patches(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                           std::uint64_t seed, bool on_all_ranks) {
     ModelPatches patches;
+    patches.meshes = kept_meshes(collection.meshes, seed);
+    patches.columns = columns_of(collection, patches.meshes);
+    patches.places.neighbors = kept_neighbors(comm, collection, patches.columns);
+    if (!comm.is_root() && !on_all_ranks) return {};
     patches.descriptors = features.descriptors;
     patches.bins = features.bins;
-    patches.meshes = kept_meshes(collection.meshes, seed);
-    for (const int mesh : patches.meshes) {
-        const int first = collection.numbering.first(mesh, 0);
-        for (int p = first; p < first + collection.numbering.count(mesh); ++p) patches.columns.push_back(p);
-    }
+    for (const int p : patches.columns) patches.places.area.push_back(features.patch_area[at(p)]);
+    patches.places.positions = features.positions(Eigen::all, patches.columns);
     for (std::size_t h = 0; h < features.histograms.size(); ++h)
         patches.histograms.emplace_back(features.histograms[h](Eigen::all, patches.columns).cast<float>());
     return patches;
@@ -315,6 +362,7 @@ RunModel read_run_model(const std::string& folder) {
     model.mesh_of = file.read<std::int32_t>("mesh_of");
     model.part_of_patch = file.read<std::int32_t>("part_of_patch");
     model.mesh_names = file.read_texts("mesh_names");
+    read_record(file, "places", model.places);
     if (!fits_together(model))
         throw Error(ExitCode::input, path + ": its parts do not fit together; run coseg run again");
     return model;

@@ -8,14 +8,30 @@
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/run_options.hpp"
+#include "solvers/affinity/global_patch_pairs.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
+#include "src/records/position_frame.hpp"
 
 namespace coseg {
 
 inline constexpr const char* model_file = "model.h5";
 inline constexpr const char* model_format = "coseg model";
-inline constexpr int model_version = 2;
+inline constexpr int model_version = 3;
+
+/// How the patches of a model lie, apart from their features.
+struct PatchPlaces {
+    std::vector<double> area;                     ///< of each patch
+    Eigen::Matrix3Xd positions;                   ///< as in PatchFeatures, as the meshes stand in their files
+    std::vector<GlobalPatchNeighbors> neighbors;  ///< numbers as in the model
+    /// Of these positions; without correlation where the meshes do not stand alike in their files, or places
+    /// did not count.
+    PositionFrame frame;
+    static constexpr auto fields() {
+        return std::tuple(field("area", &PatchPlaces::area), field("positions", &PatchPlaces::positions),
+                          field("neighbors", &PatchPlaces::neighbors), field("frame", &PatchPlaces::frame));
+    }
+};
 
 /// The patches of the run's meshes, or of a hashed sample of them. The sample has as many meshes as a patch
 /// of a run is linked to (solvers/subspace/mesh_links.hpp), so that the file stays small for any collection.
@@ -28,6 +44,7 @@ struct RunModel {
     std::vector<int> mesh_of;             ///< of each patch, 0 .. meshes kept - 1
     std::vector<std::string> mesh_names;  ///< of the meshes kept
     std::vector<int> part_of_patch;
+    PatchPlaces places;
     bool same_build = true;  ///< whether this build of coseg has written it
 };
 
@@ -38,8 +55,11 @@ struct ModelPatches {
     std::vector<int> meshes;                  ///< of the collection, ascending
     std::vector<int> columns;                 ///< their patches, ascending
     std::vector<Eigen::MatrixXf> histograms;  ///< as in PatchFeatures, of these patches
+    PatchPlaces places;                       ///< without a frame
 };
-ModelPatches model_patches(const Collection& collection, const PatchFeatures& features, std::uint64_t seed);
+/// On rank 0, or on all ranks; nothing on the others. Collective.
+ModelPatches model_patches(const Comm& comm, const Collection& collection, const PatchFeatures& features,
+                           std::uint64_t seed, bool on_all_ranks);
 
 /// The model that read_run_model gives of what write_run_model writes of the same. Serial.
 RunModel run_model(const Collection& collection, const ModelPatches& patches,

@@ -62,8 +62,8 @@ Segments find_segments(const Comm& comm, const Collection& collection,
 
 /// Neighbourhoods of a mesh's segments: boundary lengths added over its over-segmentations, concavity
 /// weighted by them.
-std::vector<PatchNeighbors> neighbors_of(const MeshDescription& mesh, const PatchNumbering& numbering,
-                                         const Segments& segments) {
+std::vector<PatchNeighbors> segment_neighbors(const MeshDescription& mesh, const PatchNumbering& numbering,
+                                              const Segments& segments) {
     std::map<std::pair<int, int>, std::pair<double, double>> sums;  // length, length * concavity
     const int first_segment = segments.first_of[at(mesh.mesh)];
     for (std::size_t s = 0; s < mesh.neighbors.size(); ++s) {
@@ -98,7 +98,7 @@ Collection segment_collection(const Collection& collection, const Segments& segm
         part.mesh = mesh.mesh;
         part.key = mesh.key;
         part.patch_counts = {counts[at(mesh.mesh)]};
-        part.neighbors = {neighbors_of(mesh, collection.numbering, segments)};
+        part.neighbors = {segment_neighbors(mesh, collection.numbering, segments)};
         result.local.push_back(std::move(part));
     }
     return result;

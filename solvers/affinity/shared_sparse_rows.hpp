@@ -10,16 +10,16 @@
 
 namespace coseg {
 
-/// Copies are handles of the same values. The last handle must be destroyed at the same place on all ranks of a
-/// node, because that frees shared memory.
+/// Copies are handles of the same values. The last handle must be destroyed at the same place on all ranks
+/// of a node, because that frees shared memory.
 class SharedSparseRows {
   public:
     /// A matrix of size 0.
     SharedSparseRows() = default;
     /// These rows.
     explicit SharedSparseRows(SparseRows own);
-    /// All rows, of which every rank of `comm` gives its own; once a node, see NodeSharedMemory. Rows are owned
-    /// as block_range gives them. Collective.
+    /// All rows, of which every rank of `comm` gives its own; once a node, see NodeSharedMemory. Rows are
+    /// owned as block_range gives them. Collective.
     SharedSparseRows(const Comm& comm, SparseRows local);
 
     [[nodiscard]] SparseRowsView view() const;

@@ -116,6 +116,12 @@ class MeshExpansion {
     std::vector<Tie> ties_;
 };
 
+bool all_fixed(const KnownParts& known, BlockRange patches) {
+    return !known.fixed.empty() &&
+           std::all_of(known.fixed.begin() + patches.begin, known.fixed.begin() + patches.end,
+                       [](int part) { return part >= 0; });
+}
+
 }  // namespace
 
 std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& objective, const KnownParts& known,
@@ -126,6 +132,11 @@ std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& object
     std::vector<int> local;
     agree(comm, [&] {
         for (auto m = mine.begin; m < mine.end; ++m) {
+            if (all_fixed(known, patches[at(m)])) {
+                local.insert(local.end(), labels.begin() + patches[at(m)].begin,
+                             labels.begin() + patches[at(m)].end);
+                continue;
+            }
             const std::vector<int> of_mesh =
                 MeshExpansion(objective, known, labels, patches[at(m)]).run(gains, labels, inertia);
             local.insert(local.end(), of_mesh.begin(), of_mesh.end());

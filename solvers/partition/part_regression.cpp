@@ -64,12 +64,6 @@ void add_said(const Eigen::MatrixXf& features, const Eigen::MatrixXd& said, Mome
     m.squares.selfadjointView<Eigen::Lower>().rankUpdate(examples);
 }
 
-/// score = slope x + constant.
-struct LinearScore {
-    Eigen::MatrixXd slope;  ///< K x d
-    Eigen::VectorXd constant;
-};
-
 LinearScore fitted(Moments m, double ridge) {
     const Eigen::VectorXd mean_x = m.x / m.weight;
     const Eigen::VectorXd mean_y = m.y / m.weight;
@@ -85,55 +79,60 @@ LinearScore fitted(Moments m, double ridge) {
 
 }  // namespace
 
-PartRegression::PartRegression(const PatchLooks& looks, const std::vector<GlobalPatchNeighbors>& neighbors,
-                               const std::vector<double>& confidence)
-    : patch_area_(looks.area), meshes_(looks.mesh_of.empty() ? 0 : 1 + looks.mesh_of.back()) {
-    const auto patches = static_cast<int>(patch_area_.size());
-    if (looks.features.all().cols() != patches)
-        throw Error(ExitCode::internal, "the features of a regression of parts are not of all patches");
-    for (std::size_t i = 0; i < patch_area_.size(); ++i)
-        weight_.push_back(patch_area_[i] * (confidence.empty() ? 1.0 : confidence[i]));
-    reduce_features(looks.features.all());
-    add_neighborhoods(neighbors);
-    x_.bottomRows<3>() = correlated_places(looks.frame, looks.positions, patches).cast<float>();
-    sum_base();
-}
-
-/// The first rows of x_.
-void PartRegression::reduce_features(const SinglePrecisionFeatures::ConstBlock& all) {
-    const Eigen::Index kept = std::min(components, all.rows());
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(all.rows());
+PatchReduction::PatchReduction(const PatchLooks& looks) : frame_(looks.frame) {
+    const SinglePrecisionFeatures::ConstBlock all = looks.features.all();
+    mean_ = Eigen::VectorXd::Zero(all.rows());
     double area = 0.0;
     for (Eigen::Index i = 0; i < all.cols(); ++i) {
-        mean += patch_area_[at(i)] * all.col(i).cast<double>();
-        area += patch_area_[at(i)];
+        mean_ += looks.area[at(i)] * all.col(i).cast<double>();
+        area += looks.area[at(i)];
     }
-    if (area > 0.0) mean /= area;
+    if (area > 0.0) mean_ /= area;
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(all.rows(), all.rows());
     for (Eigen::Index first = 0; first < all.cols(); first += columns_at_once) {
         const Eigen::Index count = std::min(columns_at_once, all.cols() - first);
-        Eigen::MatrixXd block = all.middleCols(first, count).cast<double>().colwise() - mean;
-        for (Eigen::Index i = 0; i < count; ++i) block.col(i) *= std::sqrt(patch_area_[at(first + i)]);
+        Eigen::MatrixXd block = all.middleCols(first, count).cast<double>().colwise() - mean_;
+        for (Eigen::Index i = 0; i < count; ++i) block.col(i) *= std::sqrt(looks.area[at(first + i)]);
         covariance.selfadjointView<Eigen::Lower>().rankUpdate(block);
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-    const Eigen::MatrixXd axes = eigen.eigenvectors().rightCols(kept);
-    x_ = Eigen::MatrixXf::Zero(2 * kept + 3, all.cols());
-    for (Eigen::Index first = 0; first < all.cols(); first += columns_at_once) {
-        const Eigen::Index count = std::min(columns_at_once, all.cols() - first);
-        const Eigen::MatrixXd block = all.middleCols(first, count).cast<double>().colwise() - mean;
-        x_.block(0, first, kept, count) = (axes.transpose() * block).cast<float>();
-    }
+    axes_ = eigen.eigenvectors().rightCols(std::min(components, all.rows()));
 }
 
-/// The next rows: the mean of the neighbours, weighted by the length of the common boundary.
-void PartRegression::add_neighborhoods(const std::vector<GlobalPatchNeighbors>& pairs) {
-    const Eigen::Index kept = (x_.rows() - 3) / 2;
-    const auto neighbors = weighted_neighbors(pairs, static_cast<int>(x_.cols()));
-    for (Eigen::Index i = 0; i < x_.cols(); ++i) {
-        for (const WeightedNeighbor& near : neighbors[at(i)])
-            x_.col(i).segment(kept, kept) += static_cast<float>(near.weight) * x_.col(near.patch).head(kept);
+Eigen::MatrixXf PatchReduction::operator()(const SinglePrecisionFeatures::ConstBlock& features,
+                                           const Eigen::Matrix3Xd* positions,
+                                           const std::vector<GlobalPatchNeighbors>& pairs) const {
+    const Eigen::Index kept = axes_.cols();
+    Eigen::MatrixXf x = Eigen::MatrixXf::Zero(2 * kept + 3, features.cols());
+    for (Eigen::Index first = 0; first < features.cols(); first += columns_at_once) {
+        const Eigen::Index count = std::min(columns_at_once, features.cols() - first);
+        const Eigen::MatrixXd block = features.middleCols(first, count).cast<double>().colwise() - mean_;
+        x.block(0, first, kept, count) = (axes_.transpose() * block).cast<float>();
     }
+    const auto neighbors = weighted_neighbors(pairs, static_cast<int>(x.cols()));
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+        for (const WeightedNeighbor& near : neighbors[at(i)])
+            x.col(i).segment(kept, kept) += static_cast<float>(near.weight) * x.col(near.patch).head(kept);
+    }
+    x.bottomRows<3>() = correlated_places(frame_, positions, x.cols()).cast<float>();
+    return x;
+}
+
+Eigen::MatrixXd LinearScore::operator()(const Eigen::MatrixXf& x) const {
+    return ((slope.cast<float>() * x).colwise() + constant.cast<float>().eval()).cast<double>();
+}
+
+PartRegression::PartRegression(const PatchLooks& looks, const std::vector<GlobalPatchNeighbors>& neighbors,
+                               const std::vector<double>& confidence)
+    : reduction_(looks),
+      patch_area_(looks.area),
+      meshes_(looks.mesh_of.empty() ? 0 : 1 + looks.mesh_of.back()),
+      x_(reduction_(looks.features.all(), looks.positions, neighbors)) {
+    if (x_.cols() != std::ssize(patch_area_))
+        throw Error(ExitCode::internal, "the features of a regression of parts are not of all patches");
+    for (std::size_t i = 0; i < patch_area_.size(); ++i)
+        weight_.push_back(patch_area_[i] * (confidence.empty() ? 1.0 : confidence[i]));
+    sum_base();
 }
 
 void PartRegression::sum_base() {
@@ -146,7 +145,7 @@ void PartRegression::sum_base() {
     }
 }
 
-Eigen::MatrixXd PartRegression::scores(const SaidParts& said) const {
+LinearScore PartRegression::learnt(const SaidParts& said) const {
     const Eigen::Index d = x_.rows();
     const Eigen::Index k = said.area.rows();
     const double of_base = said.base.empty() ? 0.0 : base_shapes / meshes_;
@@ -158,9 +157,12 @@ Eigen::MatrixXd PartRegression::scores(const SaidParts& said) const {
     // Weights are areas.
     const double patches =
         static_cast<double>(x_.cols()) / std::accumulate(patch_area_.begin(), patch_area_.end(), 0.0);
-    const LinearScore fit = fitted(std::move(moments), regression_ridge / patches);
-    Eigen::MatrixXd scores =
-        ((fit.slope.cast<float>() * x_).colwise() + fit.constant.cast<float>().eval()).cast<double>();
+    return fitted(std::move(moments), regression_ridge / patches);
+}
+
+Eigen::MatrixXd PartRegression::scores(const SaidParts& said) const {
+    const Eigen::Index k = said.area.rows();
+    Eigen::MatrixXd scores = learnt(said)(x_);
     for (Eigen::Index part = 0; part < k && said.base.empty(); ++part) {
         if (said.area.row(part).sum() <= 0.0) scores.row(part).setConstant(1.0 / static_cast<double>(k));
     }

@@ -21,13 +21,39 @@ struct SaidParts {
     Eigen::MatrixXi allowed;
 };
 
+/// What a regression looks at of a patch, d numbers: the leading principal components of its features, the
+/// mean of those of its neighbours, weighted by the length of the common boundary, and its place, its
+/// coordinates in the frame times their correlations, so that places count as far as shapes stand alike.
+class PatchReduction {
+  public:
+    /// The components are those of `looks`, patches weighted by area, at most 96. Serial.
+    explicit PatchReduction(const PatchLooks& looks);
+
+    /// d x n, of n patches with these features, D x n, and positions, 3 x n or null, and pairs 0 .. n-1 of
+    /// neighbours. Serial.
+    [[nodiscard]] Eigen::MatrixXf operator()(const SinglePrecisionFeatures::ConstBlock& features,
+                                             const Eigen::Matrix3Xd* positions,
+                                             const std::vector<GlobalPatchNeighbors>& neighbors) const;
+
+  private:
+    Eigen::VectorXd mean_;  ///< D
+    Eigen::MatrixXd axes_;  ///< D x components
+    PositionFrame frame_;
+};
+
+/// score = slope x + constant.
+struct LinearScore {
+    Eigen::MatrixXd slope;  ///< K x d
+    Eigen::VectorXd constant;
+    /// K x n, of reduced patches, d x n.
+    [[nodiscard]] Eigen::MatrixXd operator()(const Eigen::MatrixXf& x) const;
+};
+
 /// Everything that does not change with what is said, so that a prediction takes little time.
 ///
-/// It is a ridge regression of the parts on what a patch looks like: the 96 leading principal components of
-/// its features, the mean of those of its neighbours, weighted by the length of the common boundary, and its
-/// place, its coordinates in the frame times their correlations, so that places count as far as shapes stand
-/// alike. What is said counts by its area, and the base, all of its patches together, as much as a tenth of a
-/// shape. The ridge is 1 where the weights sum to the number of patches that they are of.
+/// It is a ridge regression of the parts on what a patch looks like, see PatchReduction. What is said counts
+/// by its area, and the base, all of its patches together, as much as a tenth of a shape. The ridge is 1
+/// where the weights sum to the number of patches that they are of.
 ///
 /// Source: Hoerl and Kennard 1970 (ridge regression).
 class PartRegression {
@@ -43,15 +69,18 @@ class PartRegression {
     /// function of the arguments alone. Throws Error(input) where nothing is known of any patch.
     [[nodiscard]] Eigen::MatrixXd scores(const SaidParts& said) const;
 
+    /// How other patches are scored, which nothing is said of. Throws as scores().
+    [[nodiscard]] LinearScore learnt(const SaidParts& said) const;
+    [[nodiscard]] const PatchReduction& reduction() const noexcept { return reduction_; }
+
   private:
-    void reduce_features(const SinglePrecisionFeatures::ConstBlock& all);
-    void add_neighborhoods(const std::vector<GlobalPatchNeighbors>& pairs);
     void sum_base();
 
+    PatchReduction reduction_;
     std::vector<double> patch_area_;
     int meshes_ = 0;
     std::vector<double> weight_;    ///< of each patch as an example of the base: area times confidence
-    Eigen::MatrixXf x_;             ///< d x N: reduced features, those of the neighbourhood, places
+    Eigen::MatrixXf x_;             ///< d x N: the reduced patches
     Eigen::MatrixXd base_squares_;  ///< d x d: sum over the patches of weight x x^T
 };
 

@@ -64,7 +64,7 @@ struct CutOptions {
     ChoiceWeights choice;
     ExampleWeights examples;
     /// Up to this number of entries of the base affinity, a start is the work of one rank, which takes about
-    /// 100 bytes an entry. Above it no rank holds all links, and the choice does without links_inside.
+    /// 90 bytes an entry. Above it no node holds all links, and the choice does without links_inside.
     std::int64_t one_rank_entries = 60'000'000;
 };
 
@@ -91,7 +91,7 @@ void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& 
 
 /// Cuts the patches of all meshes into parts.
 ///
-/// Up to one_rank_entries the affinity is gathered on every rank, the different graphs are shared out among
+/// Up to one_rank_entries every node holds all of the affinity, the different graphs are shared out among
 /// the ranks, and each graph is cut by one rank alone. Above that number every rank keeps its rows, and all
 /// ranks solve each eigenvalue problem together. The result has the same bytes on any number of ranks, and
 /// in both cases the same clusters.

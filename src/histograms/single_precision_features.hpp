@@ -11,9 +11,9 @@
 
 namespace coseg {
 
-/// The values of a FeatureMatrices, rounded to half the memory. The optimiser, whose optimum is certified, needs
-/// the other half; means and shares over patches do not. Copies are handles of the same values. The last handle
-/// must be destroyed at the same place on all ranks of a node, because that frees shared memory.
+/// The values of a FeatureMatrices, rounded to half the memory. The optimiser, whose optimum is certified,
+/// needs the other half; means and shares over patches do not. Copies are handles of the same values. The
+/// last handle must be destroyed at the same place on all ranks of a node, because that frees shared memory.
 class SinglePrecisionFeatures {
   public:
     using ConstBlock = Eigen::Map<const Eigen::MatrixXf, 0, Eigen::OuterStride<>>;

@@ -1,0 +1,187 @@
+#include "mpi_drivers/partition/mesh_assignment.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "mpi_drivers/optimise/optimise_stage.hpp"
+#include "mpi_drivers/partition/cut_stage.hpp"
+#include "solvers/affinity/sparse_rows.hpp"
+#include "src/base/error.hpp"
+#include "src/base/index.hpp"
+
+namespace coseg {
+
+namespace {
+
+/// The run's patches, then those of one new mesh; only the new columns have rows, those of the run's meshes.
+SubspaceProblem problem_of(const Comm& self, const RunModel& model, const PatchFeatures& features, int first,
+                           int count) {
+    SubspaceProblem problem;
+    std::vector<Eigen::Index> rows;
+    for (const Eigen::MatrixXd& known : model.histograms) rows.push_back(known.rows());
+    problem.features = FeatureMatrices(self, rows, model.histograms.front().cols() + count);
+    for (std::size_t h = 0; h < rows.size(); ++h) {
+        FeatureMatrices::Block both = problem.features.fill(h);
+        both << model.histograms[h], features.histograms[h].middleCols(first, count);
+    }
+    const auto meshes = static_cast<int>(model.mesh_names.size());
+    problem.scope = PenaltyScope::meshes;
+    problem.mesh_of = model.mesh_of;
+    problem.mesh_of.insert(problem.mesh_of.end(), static_cast<std::size_t>(count), meshes);
+    problem.allowed_meshes.resize(static_cast<std::size_t>(meshes) + 1);
+    problem.allowed_meshes.back().resize(static_cast<std::size_t>(meshes));
+    std::iota(problem.allowed_meshes.back().begin(), problem.allowed_meshes.back().end(), 0);
+    problem.alpha = model.options.optimise.alpha;
+    problem.beta = model.options.optimise.beta;
+    problem.lambda = model.options.optimise.lambda;
+    return problem;
+}
+
+bool places_count(const RunModel& model) { return !model.places.frame.correlation.isZero(); }
+
+/// What the run's labels say: each patch has its part, as much as its area.
+Eigen::MatrixXd said_areas(const RunModel& model) {
+    Eigen::MatrixXd said =
+        Eigen::MatrixXd::Zero(model.options.partition.parts, static_cast<Eigen::Index>(model.mesh_of.size()));
+    for (std::size_t i = 0; i < model.mesh_of.size(); ++i)
+        said(model.part_of_patch[i], static_cast<Eigen::Index>(i)) = model.places.area[i];
+    return said;
+}
+
+/// What is cut of a new mesh: the patches of the run, and then its own.
+struct JoinedPatches {
+    SinglePrecisionFeatures features;
+    Eigen::Matrix3Xf positions;
+    Eigen::Matrix3Xd own_positions;
+
+    [[nodiscard]] std::vector<ChoiceDescriptor> choice(const KnownMeshes& known) const {
+        std::vector<ChoiceDescriptor> descriptors;
+        for (std::size_t h = 0; h < known.weights.size(); ++h) {
+            if (known.weights[h].pooled > 0.0 || known.weights[h].per_mesh > 0.0)
+                descriptors.push_back({features[h], known.weights[h]});
+        }
+        if (places_count(known.model))
+            descriptors.push_back({patch_columns(positions), {.pooled = position_weight, .per_mesh = 0.0}});
+        return descriptors;
+    }
+};
+
+JoinedPatches joined_patches(const SubspaceProblem& problem, const RunModel& model,
+                             const PatchFeatures& features, int first, int count) {
+    JoinedPatches patches;
+    patches.features = {Comm(MPI_COMM_SELF), problem.features};
+    patches.own_positions = features.positions.middleCols(first, count);
+    patches.positions.resize(3, model.places.positions.cols() + count);
+    patches.positions << model.places.positions.cast<float>(), patches.own_positions.cast<float>();
+    return patches;
+}
+
+/// B and B^T of the links of the new patches, see normalized_links.
+SparseRows new_links(const SparseCoefficients& w, int known, int count) {
+    const std::vector<double> norms = pair_norms(w);
+    std::vector<SparseEntry> entries;
+    for (int j = known; j < known + count; ++j) {
+        const auto begin = at(w.offsets[at(j - w.columns.begin)]);
+        const auto end = at(w.offsets[at(j - w.columns.begin) + 1]);
+        double sum = 0.0;
+        for (std::size_t k = begin; k < end; ++k) sum += norms[k];
+        for (std::size_t k = begin; k < end && sum > 0.0; ++k) {
+            entries.push_back({w.rows[k], j, norms[k] / sum});
+            entries.push_back({j, w.rows[k], norms[k] / sum});
+        }
+    }
+    return rows_from_entries(known + count, {0, known + count}, std::move(entries));
+}
+
+/// The solve without the run's columns, which have no rows here, and without its history.
+SolveSummary own_share(const SolveResult& result, const PatchFeatures& features, int first, int count) {
+    double zero = 0.0;
+    for (std::size_t h = 0; h < features.histograms.size(); ++h) {
+        const Eigen::MatrixXd own = features.histograms[h].middleCols(first, count);
+        zero += own.squaredNorm();
+    }
+    const double others = result.objective_at_zero - zero;
+    SolveSummary share = result;
+    share.objective_at_zero = zero;
+    share.objective -= others;
+    share.lower_bound = std::max(result.lower_bound - others, 0.0);
+    share.history.clear();
+    return share;
+}
+
+/// The new patches [first, first + count) of `mesh`, solved as `solution`, beside the known ones.
+AddedMesh added_mesh(const AssignInput& input, const KnownMeshes& known, const MeshDescription& mesh,
+                     int first, int count) {
+    const RunModel& model = known.model;
+    const auto patches = static_cast<int>(model.mesh_of.size());
+    AddedMesh added;
+    added.neighbors = neighbors_of(mesh, patches);
+    added.overlaps = overlaps_of(mesh, patches);
+    added.mesh_of = model.mesh_of;
+    added.mesh_of.insert(added.mesh_of.end(), at(count), static_cast<int>(model.mesh_names.size()));
+    added.patch_area = model.places.area;
+    const auto areas = input.features.patch_area.begin() + first;
+    added.patch_area.insert(added.patch_area.end(), areas, areas + count);
+    added.known_parts = model.part_of_patch;
+    added.said = input.examples.empty() ? Eigen::MatrixXd::Zero(model.options.partition.parts, count)
+                                        : Eigen::MatrixXd(input.examples.area.middleCols(first, count));
+    return added;
+}
+
+ChoiceWeights choice_weights_of(const RunModel& model) {
+    ChoiceWeights weights;
+    weights.crease *= 3.0 / std::max(1, model.options.description.oversegmentations);
+    return weights;
+}
+
+}  // namespace
+
+KnownMeshes known_meshes(const RunModel& model, const std::vector<Descriptor>& descriptors) {
+    const SinglePrecisionFeatures features(Comm(MPI_COMM_SELF), FeatureMatrices(model.histograms));
+    const PatchPlaces& places = model.places;
+    const PatchLooks looks{features, places_count(model) ? &places.positions : nullptr, places.frame,
+                           places.area, model.mesh_of};
+    const PartRegression regression(looks, places.neighbors, {});
+    KnownMeshes known{model, regression.reduction(), regression.learnt({{}, said_areas(model), {}}), {}};
+    const double oversegmentations = static_cast<double>(model.mesh_names.size()) *
+                                     std::max(1, model.options.description.oversegmentations);
+    const double weight = share_weight(static_cast<double>(model.mesh_of.size()) / oversegmentations);
+    for (const Descriptor& d : descriptors)
+        known.weights.push_back(
+            {.pooled = weight * d.partition.pooled, .per_mesh = weight * d.partition.per_mesh});
+    return known;
+}
+
+MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const AssignInput& input,
+                        const KnownMeshes& known, const OptimiseOptions& options) {
+    const int first = input.collection.numbering.first(mesh.mesh, 0);
+    const int count = input.collection.numbering.count(mesh.mesh);
+    const auto patches = static_cast<int>(known.model.mesh_of.size());
+    const SubspaceProblem problem = problem_of(self, known.model, input.features, first, count);
+    const SolveOptions solve{
+        .gap = options.gap, .max_iterations = options.max_iterations, .max_seconds = options.max_seconds};
+    const SolveResult result = solve_subspace(self, problem, solve);
+    MeshOutcome outcome;
+    outcome.figures = {mesh.mesh, own_share(result, input.features, first, count),
+                       allowed_pair_count(problem)};
+    AddedMesh added = added_mesh(input, known, mesh, first, count);
+    added.links = new_links(result.coefficients, patches, count);
+    if (added.links.values.empty()) {
+        throw Error(ExitCode::input, input.collection.meshes[at(mesh.mesh)].path +
+                                         ": it has nothing in common with the run's shapes; leave it out");
+    }
+    const JoinedPatches joined = joined_patches(problem, known.model, input.features, first, count);
+    const std::vector<ChoiceDescriptor> descriptors = joined.choice(known);
+    added.descriptors = descriptors;
+    const SinglePrecisionFeatures::ConstBlock all = joined.features.all();
+    added.scores = known.score(known.reduction({all.data() + all.outerStride() * patches, all.rows(), count,
+                                                Eigen::OuterStride<>(all.outerStride())},
+                                               places_count(known.model) ? &joined.own_positions : nullptr,
+                                               neighbors_of(mesh, 0)));
+    outcome.scores = added.scores.cast<float>();
+    outcome.parts = added_parts(added, choice_weights_of(known.model), ExampleWeights());
+    return outcome;
+}
+
+}  // namespace coseg
