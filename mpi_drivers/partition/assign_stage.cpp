@@ -136,10 +136,9 @@ CutResult joined_parts(const Comm& comm, const Collection& collection,
     }
     const Eigen::MatrixXd all = gather_patch_columns(comm, collection, local, 2 + parts);
     CutResult cut;
-    for (Eigen::Index i = 0; i < all.cols(); ++i) {
-        cut.part_of_patch.push_back(static_cast<int>(all(0, i)));
-        cut.confidence.push_back(all(1, i));
-    }
+    for (const double part : all.row(0)) cut.part_of_patch.push_back(static_cast<int>(part));
+    if (parts == 1) return cut;  // of a single part there is nothing to be sure of, as in a run
+    cut.confidence.assign(all.row(1).begin(), all.row(1).end());
     cut.scores = all.bottomRows(parts).cast<float>();
     return cut;
 }

@@ -61,6 +61,8 @@ SaidParts said_parts(const AddedMesh& mesh, int meshes) {
 
 AddedParts added_parts(const AddedMesh& mesh, const ChoiceWeights& weights, const ExampleWeights& gains) {
     refuse_lengths(mesh);
+    if (mesh.scores.rows() == 1)
+        return {std::vector<int>(at(added_count(mesh)), 0), std::vector<double>(at(added_count(mesh)), 1.0)};
     const int meshes = mesh_count(mesh.mesh_of);
     const PartitionEvidence evidence{mesh.neighbors, mesh.overlaps,   mesh.descriptors,
                                      mesh.mesh_of,   mesh.patch_area, mesh.links};

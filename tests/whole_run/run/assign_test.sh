@@ -88,6 +88,10 @@ refuses "a part that the run has not" 3 "face 0 has label 3, but there are 3 par
     ranks 2 "${assign[@]}" --examples "$work/examples" --out "$work/x" "$work/new"
 echo "ok: labels of some faces of new shapes are kept"
 
+"$COSEG" run "${bare[@]}" --parts 1 --patches 10 --geodesic-samples 40 --out "$work/one" "$work/old"
+ranks 2 "$COSEG" assign --to "$work/one" "${bare[@]}" --out "$work/one_new" "$work/new"
+[[ $(sort -u "$work"/one_new/labels/*.seg) == 0 ]] || fail "labels where the run has one part"
+
 refuses "no run" 3 "is no run" "$COSEG" assign --to "$work/old" --out "$work/x" "$work/new"
 "$COSEG" run "${bare[@]}" --parts 3 --patches 10 --geodesic-samples 40 --no-choose --no-keep-model --out "$work/bare" "$work/old"
 [[ ! -e $work/bare/model.h5 ]] || fail "--no-keep-model keeps a model"

@@ -114,6 +114,15 @@ TEST(AddedMesh, OtherNumbersOfThePartsGiveTheSamePartsInThese) {
     EXPECT_EQ(parts_of(mesh), expected);
 }
 
+TEST(AddedMesh, HasTheOnlyPartThatThereIs) {
+    const LastMesh last;
+    AddedMesh mesh = last.added(1.0);
+    std::fill(mesh.known_parts.begin(), mesh.known_parts.end(), 0);
+    mesh.scores = Eigen::MatrixXd::Ones(1, last.count);
+    mesh.said = Eigen::MatrixXd::Zero(1, last.count);
+    EXPECT_EQ(parts_of(mesh), std::vector<int>(at(last.count), 0));
+}
+
 TEST(AddedMesh, RefusesWhatDoesNotFitTogether) {
     const LastMesh last;
     AddedMesh mesh = last.added(1.0);
