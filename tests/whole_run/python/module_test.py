@@ -128,6 +128,16 @@ def test_assign_by_result_and_by_folder_are_the_program_s(run, tables):
     for to in (result, run[0], coseg.Result.load(run[0])):
         found = coseg.assign(new, to, names=names)
         assert all(np.array_equal(a, b) for a, b in zip(found.labels, wanted))
+    # Of the first half of a shape's faces the other part is said.
+    said = np.where(np.arange(len(wanted[0])) < len(wanted[0]) // 2, 1 - wanted[0], -1)
+    examples = WORK / "examples"
+    examples.mkdir()
+    np.savetxt(examples / "new_a.seg", said, fmt="%d")
+    found = coseg.assign(new, result, names=names, examples=examples)
+    assert np.array_equal(found.labels[0][said >= 0], said[said >= 0])
+    np.savetxt(examples / "new_b.seg", said[:3], fmt="%d")
+    with pytest.raises(coseg.InputError, match="new_b.seg"):
+        coseg.assign(new, result, names=names, examples=examples)
     with pytest.raises(coseg.UsageError, match="keep_model"):
         coseg.assign(new, coseg.segment(tables[:2], 2, keep_model=False, **TINY))
     with pytest.raises(coseg.InputError, match="is no run"):
