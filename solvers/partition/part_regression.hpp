@@ -29,11 +29,11 @@ class PatchReduction {
     /// The components are those of `looks`, patches weighted by area, at most 96. Serial.
     explicit PatchReduction(const PatchLooks& looks);
 
-    /// d x n, of n patches with these features, D x n, and positions, 3 x n or null, and pairs 0 .. n-1 of
-    /// neighbours. Serial.
+    /// d x n, of n patches with these features, D x n, and positions, 3 x n or null, and `pairs`, 0 .. n-1,
+    /// of neighbours. Serial.
     [[nodiscard]] Eigen::MatrixXf operator()(const SinglePrecisionFeatures::ConstBlock& features,
                                              const Eigen::Matrix3Xd* positions,
-                                             const std::vector<GlobalPatchNeighbors>& neighbors) const;
+                                             const std::vector<GlobalPatchNeighbors>& pairs) const;
 
   private:
     Eigen::VectorXd mean_;  ///< D
