@@ -110,7 +110,7 @@ SolveSummary own_share(const SolveResult& result, const PatchFeatures& features,
     return share;
 }
 
-/// The new patches [first, first + count) of `mesh`, solved as `solution`, beside the known ones.
+/// The patches [first, first + count), those of `mesh`, beside the known ones; without links and scores.
 AddedMesh added_mesh(const AssignInput& input, const KnownMeshes& known, const MeshDescription& mesh,
                      int first, int count) {
     const RunModel& model = known.model;
