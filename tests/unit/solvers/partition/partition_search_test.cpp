@@ -172,7 +172,7 @@ TEST(PartitionSearch, APartOfASingleMeshIsGivenUpForOneThatAllMeshesHave) {
         clusters.push_back(i == 30 ? 3 : run);
         for (Eigen::Index r = 0; r < 3; ++r) {
             const float of_run = r == 0 && run == 0 ? 1.0F : (r == 1 && run == 1 ? 0.05F : 0.0F);
-            c.histograms[0](r, i) = i == 30 && r == 2 ? 9.0 : of_run;
+            c.histograms[0](r, i) = static_cast<float>(i == 30 && r == 2 ? 9.0 : of_run);
         }
     }
     const ClusterSums sums = cluster_sums(partition_objective(c.evidence(), c.weights), clusters, 4);

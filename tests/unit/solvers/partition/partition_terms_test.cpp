@@ -96,7 +96,7 @@ TEST(PartitionTerms, InOneMeshTheExplainedSpreadIsThatOfTheAnalysisOfVariance) {
 }
 
 /// Two meshes of two patches: what tells the patches apart, and what the meshes.
-BetweenPartVariance of_two_meshes(double first_a, double first_b, double second_a, double second_b,
+BetweenPartVariance of_two_meshes(float first_a, float first_b, float second_a, float second_b,
                                   const std::vector<int>& labels) {
     Eigen::MatrixXf values(1, 4);
     values << first_a, first_b, second_a, second_b;
