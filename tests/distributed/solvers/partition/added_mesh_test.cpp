@@ -18,15 +18,15 @@ using testing_graphs::segment_descriptors;
 using testing_graphs::toy_collection;
 using testing_graphs::ToyCollection;
 
-constexpr int meshes = 5;
-constexpr int parts = 3;
+constexpr int five_meshes = 5;
+constexpr int three_parts = 3;
 
 /// The last mesh of five joins the other four.
 struct LastMesh {
-    ToyCollection toy = toy_collection(Comm(MPI_COMM_SELF), meshes, parts, 6, 77);
+    ToyCollection toy = toy_collection(Comm(MPI_COMM_SELF), five_meshes, three_parts, 6, 77);
     std::vector<ChoiceDescriptor> descriptors = segment_descriptors(toy);
-    int known = static_cast<int>(
-        std::count_if(toy.mesh_of.begin(), toy.mesh_of.end(), [](int mesh) { return mesh < meshes - 1; }));
+    int known = static_cast<int>(std::count_if(toy.mesh_of.begin(), toy.mesh_of.end(),
+                                               [](int mesh) { return mesh < five_meshes - 1; }));
     int count = toy.patches - known;
 
     [[nodiscard]] AddedMesh added(double weight_of_links) const {
@@ -42,8 +42,8 @@ struct LastMesh {
         mesh.patch_area = toy.area;
         mesh.links = links(weight_of_links);
         mesh.known_parts.assign(toy.truth.begin(), toy.truth.begin() + known);
-        mesh.scores = Eigen::MatrixXd::Constant(parts, count, 1.0 / parts);
-        mesh.said = Eigen::MatrixXd::Zero(parts, count);
+        mesh.scores = Eigen::MatrixXd::Constant(three_parts, count, 1.0 / three_parts);
+        mesh.said = Eigen::MatrixXd::Zero(three_parts, count);
         return mesh;
     }
 
@@ -87,7 +87,7 @@ TEST(AddedMesh, ScoresMendWhatALinkHasWrong) {
     for (int i = 0; i < last.count; ++i) {
         mesh.scores.col(i).setZero();
         mesh.scores(last.truth()[at(i)], i) = i % 5 == 0 ? 0.3 : 1.0;
-        mesh.scores((last.truth()[at(i)] + 1) % parts, i) = i % 5 == 0 ? 0.4 : 0.0;
+        mesh.scores((last.truth()[at(i)] + 1) % three_parts, i) = i % 5 == 0 ? 0.4 : 0.0;
     }
     EXPECT_EQ(parts_of(mesh), last.truth()) << "every fifth score is wrong by little, and ties say so";
 }
@@ -96,7 +96,7 @@ TEST(AddedMesh, KeepsWhatIsSaid) {
     const LastMesh last;
     for (int patch = 0; patch < last.count; patch += 7) {
         AddedMesh mesh = last.added(1.0);
-        const int other = (last.truth()[at(patch)] + 1) % parts;
+        const int other = (last.truth()[at(patch)] + 1) % three_parts;
         mesh.said(other, patch) = last.toy.area[at(last.known + patch)];
         EXPECT_EQ(parts_of(mesh)[at(patch)], other);
         mesh.said(other, patch) *= 0.3;  // less than half of the patch
@@ -129,7 +129,7 @@ TEST(AddedMesh, RefusesWhatDoesNotFitTogether) {
     mesh.patch_area.pop_back();
     EXPECT_THROW(parts_of(mesh), Error);
     mesh = last.added(1.0);
-    mesh.scores.resize(parts, 0);
+    mesh.scores.resize(three_parts, 0);
     EXPECT_THROW(parts_of(mesh), Error);
 }
 
