@@ -9,9 +9,9 @@
 namespace coseg {
 namespace {
 
-std::vector<Eigen::MatrixXd> two_features(Eigen::Index columns) {
-    std::vector<Eigen::MatrixXd> matrices = {Eigen::MatrixXd(3, columns), Eigen::MatrixXd(2, columns)};
-    for (Eigen::Index i = 0; i < columns; ++i) {
+std::vector<Eigen::MatrixXd> two_features(Eigen::Index patches) {
+    std::vector<Eigen::MatrixXd> matrices = {Eigen::MatrixXd(3, patches), Eigen::MatrixXd(2, patches)};
+    for (Eigen::Index i = 0; i < patches; ++i) {
         matrices[0].col(i) << 1.0 / (3.0 + static_cast<double>(i)), 0.1 * static_cast<double>(i), 0.0;
         matrices[1].col(i) << -1e-20, 1.0 + static_cast<double>(i);
     }
@@ -20,8 +20,8 @@ std::vector<Eigen::MatrixXd> two_features(Eigen::Index columns) {
 
 TEST(SinglePrecisionFeatures, AreTheFeaturesRoundedOnEveryRank) {
     const Comm comm(MPI_COMM_WORLD);
-    for (const Eigen::Index columns : {1, 2, 61}) {  // some ranks round nothing, or several columns
-        const std::vector<Eigen::MatrixXd> exact = two_features(columns);
+    for (const Eigen::Index patches : {1, 2, 61}) {  // some ranks round nothing, or several patches
+        const std::vector<Eigen::MatrixXd> exact = two_features(patches);
         const SinglePrecisionFeatures features(comm, share_matrices(comm, exact));
         ASSERT_EQ(features.size(), 2U);
         EXPECT_EQ(Eigen::MatrixXf(features[0]), exact[0].cast<float>());
