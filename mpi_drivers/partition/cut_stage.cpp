@@ -62,21 +62,6 @@ bool looks_at_positions(const Eigen::Matrix3Xd& positions, const PartitionOption
     return options.choose && options.places && positions.cols() > 0;
 }
 
-std::vector<BetweenPartVariance> choice_weights(const PatchNumbering& numbering,
-                                                const PatchFeatures& features,
-                                                const PartitionOptions& options) {
-    std::vector<BetweenPartVariance> weights;
-    if (!options.choose) return weights;
-    const double weight = share_weight(numbering);
-    for (std::size_t h = 0; h < features.histograms.size(); ++h) {
-        const auto [pooled, per_mesh] = features.descriptors[h].partition;
-        weights.push_back({.pooled = weight * pooled, .per_mesh = weight * per_mesh});
-    }
-    if (looks_at_positions(features.positions, options))
-        weights.push_back({.pooled = position_weight, .per_mesh = 0.0});
-    return weights;
-}
-
 /// The number of parts that is taken.
 int part_number(const CountedParts& counted) {
     if (counted.figures.empty())
@@ -95,21 +80,43 @@ double share_weight(const PatchNumbering& numbering) {
 
 double share_weight(double patches) { return std::pow(patches / 50.0, 0.6); }
 
-std::vector<ChoiceDescriptor> PartitionInput::choice() const {
+std::vector<BetweenPartVariance> explained_weights(const std::vector<Descriptor>& descriptors, double share,
+                                                   bool positions_count) {
+    std::vector<BetweenPartVariance> weights;
+    for (const Descriptor& d : descriptors)
+        weights.push_back({.pooled = share * d.partition.pooled, .per_mesh = share * d.partition.per_mesh});
+    if (positions_count) weights.push_back({.pooled = 7.0, .per_mesh = 0.0});
+    return weights;
+}
+
+std::vector<ChoiceDescriptor> choice_descriptors(const SinglePrecisionFeatures& features,
+                                                 const Eigen::Matrix3Xf& positions,
+                                                 std::span<const BetweenPartVariance> weights) {
     std::vector<ChoiceDescriptor> descriptors;
-    for (std::size_t h = 0; h < choice_weights.size(); ++h) {
-        const BetweenPartVariance& weight = choice_weights[h];
-        if (weight.pooled > 0.0 || weight.per_mesh > 0.0)
-            descriptors.push_back(
-                {h < features.size() ? features[h] : patch_columns(rounded_positions), weight});
+    for (std::size_t h = 0; h < weights.size(); ++h) {
+        if (weights[h].pooled > 0.0 || weights[h].per_mesh > 0.0)
+            descriptors.push_back({h < features.size() ? features[h] : patch_columns(positions), weights[h]});
     }
     return descriptors;
+}
+
+ChoiceWeights weights_of_choice(int oversegmentations) {
+    ChoiceWeights weights;
+    weights.crease *= 3.0 / oversegmentations;
+    return weights;
+}
+
+std::vector<ChoiceDescriptor> PartitionInput::choice() const {
+    return choice_descriptors(features, rounded_positions, choice_weights);
 }
 
 PartitionInput partition_input(const Comm& comm, const Collection& collection, PatchFeatures features,
                                const SparseCoefficients& coefficients, const PartitionOptions& options,
                                const ExampleLabels& examples) {
-    std::vector<BetweenPartVariance> weights = choice_weights(collection.numbering, features, options);
+    std::vector<BetweenPartVariance> weights;
+    if (options.choose)
+        weights = explained_weights(features.descriptors, share_weight(collection.numbering),
+                                    looks_at_positions(features.positions, options));
     SinglePrecisionFeatures looked_at;
     if (options.choose || !examples.empty()) looked_at = {comm, features.histograms};
     FeatureMatrices clustered;
@@ -128,8 +135,7 @@ PartitionInput partition_input(const Comm& comm, const Collection& collection, P
 
 CutOptions cut_options(const PartitionInput& input, const PartitionOptions& options) {
     CutOptions cut;
-    // Creases are summed over the over-segmentations; the weight is that of three.
-    cut.choice.crease *= 3.0 / input.collection.numbering.oversegmentations();
+    cut.choice = weights_of_choice(input.collection.numbering.oversegmentations());
     cut.parts = options.parts;
     cut.form = options.affinity;
     cut.drop_below = options.drop_below;

@@ -1,6 +1,9 @@
 #pragma once
 // Finds the part of every patch from coefficients: gives the pairs of patches, in global numbers, to the cut.
 
+#include <span>
+#include <vector>
+
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/stage_options.hpp"
@@ -17,9 +20,6 @@ std::vector<GlobalPatchOverlap> overlaps_of(const MeshDescription& mesh, int fir
 /// The pairs of patches of this rank's meshes that touch or overlap, in global numbers.
 std::vector<GlobalPatchNeighbors> local_neighbors(const Collection& collection);
 std::vector<GlobalPatchOverlap> local_overlaps(const Collection& collection);
-
-/// The weight in the choice of the share that parts explain of the positions of patches, pooled over meshes.
-inline constexpr double position_weight = 7.0;
 
 /// The data that a cut uses, apart from the coefficients.
 struct PartitionInput {
@@ -51,6 +51,19 @@ struct PartitionInput {
 double share_weight(const PatchNumbering& numbering);
 /// The same of a collection with `patches` in the mean over-segmentation.
 double share_weight(double patches);
+
+/// Per descriptor, and then of positions if they count, the weights of its explained shares in the choice,
+/// where `share` is share_weight.
+std::vector<BetweenPartVariance> explained_weights(const std::vector<Descriptor>& descriptors, double share,
+                                                   bool positions_count);
+
+/// The features, and then the positions, of which `weights` has a weight. Refers to both.
+std::vector<ChoiceDescriptor> choice_descriptors(const SinglePrecisionFeatures& features,
+                                                 const Eigen::Matrix3Xf& positions,
+                                                 std::span<const BetweenPartVariance> weights);
+
+/// Creases are summed over the over-segmentations; the weight is that of three.
+ChoiceWeights weights_of_choice(int oversegmentations);
 
 /// Takes from the features what the cut uses; `examples` are not copied. The rest is freed: in a large
 /// collection it is most of the memory, which the cut needs for its graphs. Collective.

@@ -6,7 +6,7 @@
 
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
-#include "solvers/affinity/sparse_rows.hpp"
+#include "solvers/affinity/affinity.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
@@ -49,51 +49,6 @@ Eigen::MatrixXd said_areas(const RunModel& model) {
     return said;
 }
 
-/// What is cut of a new mesh: the patches of the run, and then its own.
-struct JoinedPatches {
-    SinglePrecisionFeatures features;
-    Eigen::Matrix3Xf positions;
-    Eigen::Matrix3Xd own_positions;
-
-    [[nodiscard]] std::vector<ChoiceDescriptor> choice(const KnownMeshes& known) const {
-        std::vector<ChoiceDescriptor> descriptors;
-        for (std::size_t h = 0; h < known.weights.size(); ++h) {
-            if (known.weights[h].pooled > 0.0 || known.weights[h].per_mesh > 0.0)
-                descriptors.push_back({features[h], known.weights[h]});
-        }
-        if (places_count(known.model))
-            descriptors.push_back({patch_columns(positions), {.pooled = position_weight, .per_mesh = 0.0}});
-        return descriptors;
-    }
-};
-
-JoinedPatches joined_patches(const SubspaceProblem& problem, const RunModel& model,
-                             const PatchFeatures& features, int first, int count) {
-    JoinedPatches patches;
-    patches.features = {Comm(MPI_COMM_SELF), problem.features};
-    patches.own_positions = features.positions.middleCols(first, count);
-    patches.positions.resize(3, model.places.positions.cols() + count);
-    patches.positions << model.places.positions.cast<float>(), patches.own_positions.cast<float>();
-    return patches;
-}
-
-/// B and B^T of the links of the new patches, see normalized_links.
-SparseRows new_links(const SparseCoefficients& w, int known, int count) {
-    const std::vector<double> norms = pair_norms(w);
-    std::vector<SparseEntry> entries;
-    for (int j = known; j < known + count; ++j) {
-        const auto begin = at(w.offsets[at(j - w.columns.begin)]);
-        const auto end = at(w.offsets[at(j - w.columns.begin) + 1]);
-        double sum = 0.0;
-        for (std::size_t k = begin; k < end; ++k) sum += norms[k];
-        for (std::size_t k = begin; k < end && sum > 0.0; ++k) {
-            entries.push_back({w.rows[k], j, norms[k] / sum});
-            entries.push_back({j, w.rows[k], norms[k] / sum});
-        }
-    }
-    return rows_from_entries(known + count, {0, known + count}, std::move(entries));
-}
-
 /// The solve without the run's columns, which have no rows here, and without its history.
 SolveSummary own_share(const SolveResult& result, const PatchFeatures& features, int first, int count) {
     double zero = 0.0;
@@ -129,10 +84,15 @@ AddedMesh added_mesh(const AssignInput& input, const KnownMeshes& known, const M
     return added;
 }
 
-ChoiceWeights choice_weights_of(const RunModel& model) {
-    ChoiceWeights weights;
-    weights.crease *= 3.0 / std::max(1, model.options.description.oversegmentations);
-    return weights;
+/// The run's patches, and then those of the new mesh.
+Eigen::Matrix3Xf joined_positions(const RunModel& model, const Eigen::Matrix3Xd& own) {
+    Eigen::Matrix3Xf positions(3, model.places.positions.cols() + own.cols());
+    positions << model.places.positions.cast<float>(), own.cast<float>();
+    return positions;
+}
+
+int oversegmentations_of(const RunModel& model) {
+    return std::max(1, model.options.description.oversegmentations);
 }
 
 }  // namespace
@@ -143,21 +103,17 @@ KnownMeshes known_meshes(const RunModel& model, const std::vector<Descriptor>& d
     const PatchLooks looks{features, places_count(model) ? &places.positions : nullptr, places.frame,
                            places.area, model.mesh_of};
     const PartRegression regression(looks, places.neighbors, {});
-    KnownMeshes known{model, regression.reduction(), regression.learnt({{}, said_areas(model), {}}), {}};
-    const double oversegmentations = static_cast<double>(model.mesh_names.size()) *
-                                     std::max(1, model.options.description.oversegmentations);
-    const double weight = share_weight(static_cast<double>(model.mesh_of.size()) / oversegmentations);
-    for (const Descriptor& d : descriptors)
-        known.weights.push_back(
-            {.pooled = weight * d.partition.pooled, .per_mesh = weight * d.partition.per_mesh});
-    return known;
+    const double segmentations = static_cast<double>(model.mesh_names.size()) * oversegmentations_of(model);
+    const double share = share_weight(static_cast<double>(model.mesh_of.size()) / segmentations);
+    return {model, regression.reduction(), regression.learnt({{}, said_areas(model), {}}),
+            explained_weights(descriptors, share, places_count(model))};
 }
 
 MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const AssignInput& input,
                         const KnownMeshes& known, const OptimiseOptions& options) {
     const int first = input.collection.numbering.first(mesh.mesh, 0);
     const int count = input.collection.numbering.count(mesh.mesh);
-    const auto patches = static_cast<int>(known.model.mesh_of.size());
+    const auto patches = static_cast<Eigen::Index>(known.model.mesh_of.size());
     const SubspaceProblem problem = problem_of(self, known.model, input.features, first, count);
     const SolveOptions solve{
         .gap = options.gap, .max_iterations = options.max_iterations, .max_seconds = options.max_seconds};
@@ -166,21 +122,24 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Ass
     outcome.figures = {mesh.mesh, own_share(result, input.features, first, count),
                        allowed_pair_count(problem)};
     AddedMesh added = added_mesh(input, known, mesh, first, count);
-    added.links = new_links(result.coefficients, patches, count);
+    added.links = normalized_links(self, result.coefficients);
     if (added.links.values.empty()) {
         throw Error(ExitCode::input, input.collection.meshes[at(mesh.mesh)].path +
                                          ": it has nothing in common with the run's shapes; leave it out");
     }
-    const JoinedPatches joined = joined_patches(problem, known.model, input.features, first, count);
-    const std::vector<ChoiceDescriptor> descriptors = joined.choice(known);
+    const SinglePrecisionFeatures features(self, problem.features);
+    const Eigen::Matrix3Xd own_positions = input.features.positions.middleCols(first, count);
+    const Eigen::Matrix3Xf positions = joined_positions(known.model, own_positions);
+    const std::vector<ChoiceDescriptor> descriptors = choice_descriptors(features, positions, known.weights);
     added.descriptors = descriptors;
-    const SinglePrecisionFeatures::ConstBlock all = joined.features.all();
+    const SinglePrecisionFeatures::ConstBlock all = features.all();
     added.scores = known.score(known.reduction({all.data() + all.outerStride() * patches, all.rows(), count,
                                                 Eigen::OuterStride<>(all.outerStride())},
-                                               places_count(known.model) ? &joined.own_positions : nullptr,
+                                               places_count(known.model) ? &own_positions : nullptr,
                                                neighbors_of(mesh, 0)));
     outcome.scores = added.scores.cast<float>();
-    outcome.parts = added_parts(added, choice_weights_of(known.model), ExampleWeights());
+    outcome.parts =
+        added_parts(added, weights_of_choice(oversegmentations_of(known.model)), ExampleWeights());
     return outcome;
 }
 

@@ -28,7 +28,7 @@ struct KnownMeshes {
     const RunModel& model;
     PatchReduction reduction;
     LinearScore score;
-    std::vector<BetweenPartVariance> weights;  ///< per feature, of its explained shares
+    std::vector<BetweenPartVariance> weights;  ///< see explained_weights
 };
 
 /// descriptors: as in PatchFeatures. The model must outlive the result. Serial.
