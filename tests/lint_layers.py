@@ -43,6 +43,8 @@ ROOMS = {
     "io/folders": ("io/files", "src/base"),
     "io/part_files": ("io/files", "io/reports", "src/base", "src/measures", "src/mesh", "src/records"),
     "io/http": ("src/base",),
+    # The part of the interface for other programs that needs no solver.
+    "io/interface": ("io/files", "io/folders", "io/mesh_files", "src/base", "src/families", "src/mesh", "src/metrics"),
     "io/reports": ("io/files", "src/base", "src/mesh", "src/parallel", "src/pictures", "src/records"),
     "solvers/petsc": ("src/base", "src/parallel"),
     "solvers/numeric": ("src/base", "src/parallel"),
@@ -84,7 +86,7 @@ LIBRARY = ("src", "io", "solvers", "mpi_drivers")
 KNOWS_PETSC = ("solvers", "mpi_drivers", "tests", "bench")
 PETSC = re.compile(r"(petsc|slepc)\w*\.h$|petsc/|slepc/")
 # What a header of the library may include beside the C++ library: it becomes part of every file that includes it.
-IN_HEADERS = re.compile(r"Eigen/|mpi\.h$|coseg/coseg\.hpp$")
+IN_HEADERS = re.compile(r"Eigen/|mpi\.h$|coseg/(coseg|shapes)\.hpp$")
 STANDARD = re.compile(r"[a-z_0-9]+$")
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 FORBIDDEN = (

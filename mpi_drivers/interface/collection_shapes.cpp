@@ -5,8 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include "io/files/file_contents.hpp"
-#include "io/mesh_files/mesh_reader.hpp"
+#include "io/interface/shape_polygons.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -16,10 +15,6 @@ namespace coseg {
 namespace {
 
 constexpr std::size_t longest_name = 200;  // a file's name has 255 bytes, with suffixes and temporary names
-
-std::string called(const Shape& shape, std::size_t index) {
-    return "shape " + std::to_string(index) + (shape.name.empty() ? "" : " ('" + shape.name + "')");
-}
 
 std::string standard_name(std::size_t index) {
     std::array<char, 32> text{};
@@ -94,11 +89,6 @@ CollectionShapes::CollectionShapes(const Comm& comm, std::span<const Shape> shap
                      [&](std::size_t a, std::size_t b) { return entries[a].name < entries[b].name; });
     for (const std::size_t s : order_) entries_.push_back(std::move(entries[s]));
     agree(comm, [&] { refuse_equal_names(entries_); });
-}
-
-ParsedMesh polygons_of(const Shape& shape, std::size_t index) {
-    if (!shape.path.empty()) return parse_mesh(read_regular_file(shape.path), shape.path);
-    return checked_polygons({shape.vertices, shape.corners, shape.offsets}, called(shape, index));
 }
 
 void refuse_differences(const Comm& comm, const ContentHash& hash, const std::string& what) {

@@ -9,7 +9,6 @@
 
 #include "io/files/content_hash.hpp"
 #include "io/mesh_files/mesh_list.hpp"
-#include "io/mesh_files/parsed_mesh.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {
@@ -33,9 +32,6 @@ class CollectionShapes {
     std::vector<MeshEntry> entries_;
     std::vector<std::size_t> order_;
 };
-
-/// The polygons of one shape, with what its reader warns of. `index` is for messages. Throws Error(input).
-ParsedMesh polygons_of(const Shape& shape, std::size_t index);
 
 /// Throws AgreedError(usage) where the ranks have different hashes. `what`: "shapes". Collective.
 void refuse_differences(const Comm& comm, const ContentHash& hash, const std::string& what);

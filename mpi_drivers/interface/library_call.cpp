@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstdlib>
 #include <memory>
-#include <new>
 
 #include "solvers/petsc/petsc_session.hpp"
 #include "src/base/error.hpp"
@@ -108,22 +107,6 @@ void LibraryCall::tell(const Call& call, const Progress& progress) {
     if (thrown_ && comm().size() == 1) throw StoppedByCaller{};
 }
 
-void interface_1::start() {
-    try {
-        start_mpi();
-    } catch (...) {
-        throw_failure();
-    }
-}
-
-void throw_failure() {
-    try {
-        throw;
-    } catch (const Error& error) {
-        throw Failure(static_cast<int>(error.code()), error.what());
-    } catch (const std::bad_alloc&) {
-        throw Failure(static_cast<int>(ExitCode::internal), "out of memory; give fewer or coarser shapes");
-    }
-}
+void interface_1::start() { with_failures(start_mpi); }
 
 }  // namespace coseg

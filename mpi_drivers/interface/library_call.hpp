@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/interface/failures.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
 
@@ -51,13 +52,10 @@ class LibraryCall {
     int blas_threads_before_ = 0;
 };
 
-/// The exception of the interface for the one under way. What is none of ours stays as it is.
-[[noreturn]] void throw_failure();
-
 /// Runs `work` as one call; what it returns or throws is that of the interface.
 template <class Work>
 auto in_call(const Call& call, Work&& work) {
-    try {
+    return with_failures([&] {
         LibraryCall library(call);
         try {
             auto result = work(library);
@@ -67,9 +65,7 @@ auto in_call(const Call& call, Work&& work) {
             library.rethrow();
             throw;
         }
-    } catch (...) {
-        throw_failure();
-    }
+    });
 }
 
 }  // namespace coseg

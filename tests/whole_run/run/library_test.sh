@@ -11,10 +11,13 @@ done
 cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { tail "$work/log"; fail "cmake --install"; }
 [[ -s $work/prefix/share/man/man1/coseg.1 && -s $work/prefix/share/bash-completion/completions/coseg ]] || fail "help files"
 "$work/prefix/bin/coseg" --version | grep -q "^coseg " || fail "the installed program"
-# The interface is the one header, which includes nothing but the C++ library, and who links needs no command line.
-[[ $(cd "$work/prefix/include" && find . -type f) == ./coseg/coseg.hpp ]] || fail "headers: $(find "$work/prefix/include")"
-printf '#include <coseg/coseg.hpp>\n' | "${CXX:-c++}" -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only \
-    -I "$work/prefix/include" -x c++ - || fail "the header by itself"
+# The interface is two headers, which include nothing but the C++ library, and who links needs no command line.
+headers=$(cd "$work/prefix/include" && find . -type f | sort | tr '\n' ' ')
+[[ $headers == "./coseg/coseg.hpp ./coseg/shapes.hpp " ]] || fail "headers: $headers"
+for header in coseg shapes; do
+    printf '#include <coseg/%s.hpp>\n' "$header" | "${CXX:-c++}" -std=c++20 -Wall -Wextra -Wpedantic -Werror -fsyntax-only \
+        -I "$work/prefix/include" -x c++ - || fail "$header.hpp by itself"
+done
 if grep -r -i -l "CLI11" "$work/prefix/lib"*/cmake "$work/prefix/lib"/*/cmake 2>/dev/null; then fail "the library asks for CLI11"; fi
 [[ -z $(find "$work/prefix" -name 'libcoseg_commands*') ]] || fail "the command line is installed as a library"
 cp -r "$COSEG_SOURCE/examples/two_meshes" "$work/example"
@@ -34,6 +37,47 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n' >"$work/bad.off"
 refuses "a bad mesh ends the example, not MPI" 3 "bad.off:6: " ranks 2 "$work/example/build/two_meshes" "$work/a.off" "$work/bad.off"
 echo "ok: the library"
 
+# The components: reading alone brings no PETSc, the module's folder is found, and what there is not is not found.
+configure() { # configure COMPONENT: a project that prints what the component gives, and links it if it is a library
+    mkdir -p "$work/$1"
+    cat >"$work/$1/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.22)
+project(consumer LANGUAGES CXX)
+find_package(coseg REQUIRED COMPONENTS $1)
+message(STATUS "module in '\${coseg_PYTHON_DIR}', PETSc '\${PETSC_FOUND}'")
+if(TARGET coseg::$1)
+  add_executable(consumer consumer.cpp)
+  target_link_libraries(consumer PRIVATE coseg::$1)
+endif()
+END
+    cmake -S "$work/$1" -B "$work/$1/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release >"$work/log" 2>&1
+}
+mkdir "$work/io"
+cat >"$work/io/consumer.cpp" <<'END'
+#include <coseg/shapes.hpp>
+#include <cstdio>
+int main(int, char** arguments) try {
+    std::printf("%zu faces\n", coseg::load_mesh(arguments[1]).offsets.size() - 1);
+} catch (const coseg::Failure& failure) {
+    std::fprintf(stderr, "%s\n", failure.what());
+    return failure.code();
+}
+END
+configure io || { tail "$work/log"; fail "find_package(coseg COMPONENTS io)"; }
+grep -q "PETSc ''" "$work/log" || fail "the component io looks for PETSc"
+cmake --build "$work/io/build" >"$work/log" 2>&1 || { tail "$work/log"; fail "building with coseg::io"; }
+"$work/io/build/consumer" "$work/a.off" | grep -q "^$(sed -n 2p "$work/a.off" | cut -d' ' -f2) faces$" || fail "coseg::io reads another mesh"
+refuses "a bad mesh ends a program of coseg::io" 3 "bad.off:6: " "$work/io/build/consumer" "$work/bad.off"
+if ldd "$work/io/build/consumer" | grep -q -i "petsc\|slepc"; then fail "coseg::io brings PETSc"; fi
+if [[ -f $work/prefix/lib/python3/dist-packages/coseg/__init__.py ]]; then
+    configure python || { tail "$work/log"; fail "find_package(coseg COMPONENTS python)"; }
+    grep -q "module in '$work/prefix/lib/python3/dist-packages'" "$work/log" || fail "the module's folder"
+else
+    if configure python; then fail "a module that is not installed is found"; fi
+fi
+if configure gpu; then fail "a component that there is not is found"; fi
+echo "ok: the components"
+
 for program in dpkg-deb cpack file; do # cpack asks file(1) which of the files are programs
     command -v "$program" >/dev/null || { echo "skipped in part: no $program"; exit 0; }
 done
@@ -42,7 +86,7 @@ for package in coseg libcoseg-dev; do
     [[ -f $(echo "$work/pack/${package}"_*.deb) ]] || fail "cpack makes no $package, but $(ls "$work/pack")"
 done
 dpkg-deb --contents "$work"/pack/libcoseg-dev_*.deb >"$work/contents"
-grep -q "usr/include/coseg/coseg.hpp" "$work/contents" || fail "libcoseg-dev has no header"
+grep -q "usr/include/coseg/shapes.hpp" "$work/contents" || fail "libcoseg-dev has no header"
 if grep -q "bin/coseg" "$work/contents"; then fail "libcoseg-dev has the program"; fi
 if dpkg-deb --contents "$work"/pack/coseg_*.deb | grep -E "\.a$|/include/|dist-packages"; then fail "coseg has more than the program"; fi
 if compgen -G "$build/python/coseg/_core*.so" >/dev/null; then

@@ -1,15 +1,14 @@
-// Shapes, versions and scores: what of the interface needs neither MPI nor PETSc.
+// What <coseg/shapes.hpp> declares.
 
 #include <algorithm>
-#include <coseg/coseg.hpp>
+#include <coseg/shapes.hpp>
 #include <utility>
 
 #include "io/folders/finished_run.hpp"
+#include "io/interface/failures.hpp"
+#include "io/interface/shape_polygons.hpp"
 #include "io/mesh_files/mesh_list.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
-#include "mpi_drivers/interface/collection_shapes.hpp"
-#include "mpi_drivers/interface/library_call.hpp"
-#include "mpi_drivers/options/named_options.hpp"
 #include "src/base/error.hpp"
 #include "src/families/shape_families.hpp"
 #include "src/mesh/polygon_area.hpp"
@@ -18,15 +17,6 @@
 namespace coseg {
 
 namespace {
-
-template <class Work>
-auto without_call(Work&& work) {
-    try {
-        return work();
-    } catch (...) {
-        throw_failure();
-    }
-}
 
 void refuse_length(std::size_t shape, const char* what, std::size_t length, std::size_t faces) {
     throw Error(ExitCode::input, "shape " + std::to_string(shape) + ": " + std::to_string(length) + " " +
@@ -100,7 +90,7 @@ Shape interface_1::shape_of(const std::string& path) {
 }
 
 Mesh interface_1::load_mesh(const std::string& path) {
-    return without_call([&] {
+    return with_failures([&] {
         const PolygonMesh polygons = read_mesh(path);
         Mesh mesh;
         for (const Eigen::Vector3d& p : polygons.vertices)
@@ -112,7 +102,7 @@ Mesh interface_1::load_mesh(const std::string& path) {
 }
 
 std::vector<std::string> interface_1::mesh_files(const std::vector<std::string>& arguments) {
-    return without_call([&] {
+    return with_failures([&] {
         std::vector<std::string> paths;
         for (const MeshEntry& entry : expand_mesh_list(arguments)) paths.push_back(entry.path);
         return paths;
@@ -121,7 +111,7 @@ std::vector<std::string> interface_1::mesh_files(const std::vector<std::string>&
 
 std::vector<GeneratedShape> interface_1::generate(const std::string& family, int count, std::uint64_t seed,
                                                   int faces) {
-    return without_call([&] {
+    return with_failures([&] {
         if (count < 1 || count > 1000000)
             throw Error(ExitCode::usage, "count: " + std::to_string(count) + " is not in 1 .. 1000000");
         std::vector<GeneratedShape> shapes;
@@ -131,7 +121,7 @@ std::vector<GeneratedShape> interface_1::generate(const std::string& family, int
 }
 
 std::vector<std::string> interface_1::changed_files(const std::string& folder) {
-    return without_call([&] {
+    return with_failures([&] {
         std::vector<std::string> sentences;
         for (const std::string& path : files_changed_since(folder))
             sentences.push_back(changed_file_sentence(path));
@@ -139,21 +129,9 @@ std::vector<std::string> interface_1::changed_files(const std::string& folder) {
     });
 }
 
-std::vector<std::string> interface_1::option_names() {
-    return without_call([] { return coseg::named_option_names(); });
-}
-
-std::vector<std::string> interface_1::option_kinds() {
-    return without_call([] {
-        std::vector<std::string> words;
-        for (const OptionKind kind : named_option_kinds()) words.emplace_back(to_string(kind));
-        return words;
-    });
-}
-
 Score interface_1::score(std::span<const Shape> shapes, const std::vector<std::vector<int>>& labels,
                          const std::vector<std::vector<int>>& truth) {
-    return without_call([&] { return scored(shapes, labels, truth); });
+    return with_failures([&] { return scored(shapes, labels, truth); });
 }
 
 }  // namespace coseg
