@@ -11,9 +11,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <optional>
-
-#include "src/base/error.hpp"
+#include <utility>
 
 namespace coseg {
 
@@ -56,21 +54,23 @@ timespec changed_at(int descriptor) {
 
 std::string folder_of(const std::string& file) { return std::filesystem::path(file).parent_path().string(); }
 
-[[noreturn]] void refuse_held(const std::string& file, const std::string& record) {
-    const std::string holder = record.empty() ? "by another coseg" : "by another run (" + record + ")";
-    throw Error(ExitCode::output, folder_of(file) + ": the state folder is in use " + holder +
-                                      "; wait until it has ended, or name another --state");
-}
-
 }  // namespace
+
+LockHeld::LockHeld(const std::string& folder, std::string record)
+    : Error(ExitCode::output, folder + ": the state folder is in use by another " +
+                                  (record.empty() ? std::string("coseg") : "run (" + record + ")") +
+                                  "; wait until it has ended, or name another --state"),
+      holder(std::move(record)) {}
+
+LockUnwritable::LockUnwritable(const std::string& folder, std::string reason)
+    : Error(ExitCode::output, folder + ": the state folder cannot be written (" + reason +
+                                  "); free some space or name another --state"),
+      cause(std::move(reason)) {}
 
 StateLock::StateLock(const std::string& file, LockMode mode, LockTiming timing)
     : file_(file), timing_(timing) {
     descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) {
-        throw Error(ExitCode::output, folder_of(file) + ": the state folder cannot be written (" +
-                                          std::strerror(errno) + "); name another --state");
-    }
+    if (descriptor_ < 0) throw LockUnwritable(folder_of(file), std::strerror(errno));
     try {
         acquire(mode);
         if (mode == LockMode::exclusive) write_record();
@@ -97,7 +97,7 @@ StateLock::~StateLock() {
 void StateLock::acquire(LockMode mode) {
     const int kind = mode == LockMode::exclusive ? LOCK_EX : LOCK_SH;
     if (::flock(descriptor_, kind | LOCK_NB) != 0) {
-        if (errno == EWOULDBLOCK) refuse_held(file_, read_record(descriptor_));
+        if (errno == EWOULDBLOCK) throw LockHeld(folder_of(file_), read_record(descriptor_));
         // A file system without locks: the record and its heartbeat are all there is.
         const std::string record = read_record(descriptor_);
         if (!record.empty()) wait_for_sign_of_life(record);
@@ -114,7 +114,8 @@ void StateLock::wait_for_sign_of_life(const std::string& holder) {
     while (std::chrono::steady_clock::now() < end) {
         std::this_thread::sleep_for(timing_.heartbeat / 10);
         const timespec now = changed_at(descriptor_);
-        if (now.tv_sec != before.tv_sec || now.tv_nsec != before.tv_nsec) refuse_held(file_, holder);
+        if (now.tv_sec != before.tv_sec || now.tv_nsec != before.tv_nsec)
+            throw LockHeld(folder_of(file_), holder);
     }
 }
 
@@ -124,9 +125,7 @@ void StateLock::write_record() {
     const bool written =
         ::ftruncate(descriptor_, 0) == 0 &&
         ::pwrite(descriptor_, record.data(), record.size(), 0) == static_cast<ssize_t>(record.size());
-    if (written) return;
-    throw Error(ExitCode::output, folder_of(file_) + ": the state folder cannot be written (" +
-                                      std::strerror(errno) + "); free some space or name another --state");
+    if (!written) throw LockUnwritable(folder_of(file_), std::strerror(errno));
 }
 
 void StateLock::beat() {

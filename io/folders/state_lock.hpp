@@ -8,6 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "src/base/error.hpp"
+
 namespace coseg {
 
 enum class LockMode {
@@ -23,14 +25,25 @@ struct LockTiming {
         16000};  ///< A holder on another host counts as dead after this time without a sign.
 };
 
+/// Thrown where another process has the lock. Its sentence is that of a state folder.
+struct LockHeld : Error {
+    LockHeld(const std::string& folder, std::string record);
+    std::string holder;  ///< "host NAME, process NUMBER, since TIME", or empty where that is not known
+};
+
+/// Thrown where the lock's file cannot be made or written. Its sentence is that of a state folder.
+struct LockUnwritable : Error {
+    LockUnwritable(const std::string& folder, std::string reason);
+    std::string cause;  ///< in the system's words
+};
+
 /// Holds FILE locked during its lifetime. The operating system ends the lock with the process, however that
 /// ends. Some file systems lock for one host only. There, the record in FILE (host, process, time) and its
 /// heartbeat reveal a holder on another host. The lock of a dead holder is taken over after `patience`. Not
 /// collective: one rank holds the lock for all.
 class StateLock {
   public:
-    /// Takes the lock. Throws Error(output) that names the holder if there is one, or the cause if the file
-    /// cannot be made.
+    /// Takes the lock. Throws LockHeld or LockUnwritable, whose code is that of output.
     StateLock(const std::string& file, LockMode mode, LockTiming timing = {});
     ~StateLock();
     StateLock(const StateLock&) = delete;

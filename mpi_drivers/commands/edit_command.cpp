@@ -128,18 +128,14 @@ View view_of(const Comm& comm, const BasePartition& run) {
 std::unique_ptr<StateLock> session_lock(const std::string& run) {
     try {
         return std::make_unique<StateLock>(run + "/.corrections.lock", LockMode::exclusive);
-    } catch (const Error& error) {
-        const std::string cause = error.what();
-        const std::size_t holder = cause.find("(host");
-        if (holder == std::string::npos)
-            throw Error(error.code(),
-                        "'" + run +
-                            "' cannot be written, so nothing that you say could be kept; make it "
-                            "writable or copy it (" +
-                            cause + ")");
-        throw Error(error.code(), "another coseg edit works on '" + run + "' " +
-                                      cause.substr(holder, cause.find(')', holder) + 1 - holder) +
-                                      "; use its page, or end it first");
+    } catch (const LockHeld& held) {
+        throw Error(held.code(), "another coseg edit works on '" + run + "'" +
+                                     (held.holder.empty() ? std::string() : " (" + held.holder + ")") +
+                                     "; use its page, or end it first");
+    } catch (const LockUnwritable& refused) {
+        throw Error(refused.code(),
+                    "'" + run + "' cannot be written (" + refused.cause +
+                        "), so nothing that you say could be kept; make it writable or copy it");
     }
 }
 

@@ -22,6 +22,23 @@ status=0
 python3 "$here/edit_in_browser.py" "$COSEG" "$work/run3" || status=$?
 [[ $status == 0 || $status == 77 ]] || fail "the page in a browser"
 
+# A disk that fills up during a session and one that is read-only, where this machine lets us mount one.
+disk=$work/disk
+mkdir "$disk"
+if mount -t tmpfs -o size=100m tmpfs "$disk" 2>/dev/null; then
+    trap 'umount --lazy "$disk" 2>/dev/null || true; rm -rf "$work"' EXIT
+    cp -r "$work/run3" "$disk/run"
+    rm -f "$disk/run/corrections.json" "$disk/run/.corrections.lock"
+    python3 "$here/edit_full_disk.py" "$COSEG" "$disk/run" || fail "a disk that fills up"
+    rm -f "$disk/run/.corrections.lock"
+    mount -o remount,ro "$disk"
+    refuses "a read-only run" 4 "cannot be written (Read-only file system), so nothing that you say could be kept" "$COSEG" edit --quiet "$disk/run"
+    umount "$disk"
+    echo "ok: a full disk and a read-only one"
+else
+    echo "note: no right to mount a tmpfs here: full and read-only disks are not tried"
+fi
+
 # What is no run, what has changed, what cannot be written.
 refuses "no run" 3 "holds no report.json" "$COSEG" edit "$work/set"
 cp "$work/again/corrections.json" "$work/kept.json"
