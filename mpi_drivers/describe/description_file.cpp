@@ -107,7 +107,6 @@ DescribedMesh read_description(const std::string& file_path, int mesh, const std
     description.mesh = mesh;
     description.key = hash_text(name);
     read_record(file, "", description);
-    index_incidence(description.graph);
     described.descriptors = read_descriptors(file);
     for (const std::string& warning : file.read_texts("warnings"))
         description.warnings.push_back(replaced(warning, path_mark, path));

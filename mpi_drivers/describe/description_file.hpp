@@ -26,6 +26,6 @@ DescribedMesh read_description(const std::string& file, int mesh, const std::str
                                const std::string& path);
 
 inline constexpr const char* description_format = "coseg mesh description";
-inline constexpr int description_version = 3;
+inline constexpr int description_version = 4;
 
 }  // namespace coseg

@@ -171,6 +171,7 @@ DescribedMesh describe_whole(int mesh, const std::string& name, const std::strin
     const TriMesh working = describe_surface(described, mesh, name, path, read, options);
     StepClock clock(described.mesh);
     cut_into_patches(described.mesh, working, options, clock);
+    release_incidence(described.mesh.graph);
     return described;
 }
 

@@ -51,7 +51,7 @@ struct MeshDescription {
     double overlong_area = 0.0;  ///< overlong_area_share of the mesh as it was read and repaired
     bool remeshed = false;
     FaceGeometry geometry;  ///< of the working mesh, area 1
-    DualGraph graph;
+    DualGraph graph;        ///< without its incidence once patches are cut, see release_incidence
     std::vector<std::vector<int>> patches;  ///< per over-segmentation: patch of each working face
     std::vector<int> patch_counts;          ///< per over-segmentation
     std::vector<std::vector<PatchNeighbors>> neighbors;  ///< per over-segmentation

@@ -70,9 +70,10 @@ constexpr double score_weight = 20.0;
 /// Triangles from a boundary that scores may move. The reach ends most moves long before.
 constexpr int score_strip = 60;
 
-/// K x faces: the mean over the over-segmentations of the scores of the face's patches.
+/// K x faces: the mean over the over-segmentations of the scores of the face's patches, or empty.
 Eigen::MatrixXd scores_of_faces(const MeshDescription& mesh, const PatchNumbering& numbering,
                                 const Eigen::MatrixXf& of_patches) {
+    if (of_patches.size() == 0) return {};
     const auto faces = static_cast<Eigen::Index>(mesh.patches.front().size());
     Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(of_patches.rows(), faces);
     for (std::size_t s = 0; s < mesh.patches.size(); ++s) {
@@ -83,18 +84,17 @@ Eigen::MatrixXd scores_of_faces(const MeshDescription& mesh, const PatchNumberin
     return scores / static_cast<double>(mesh.patches.size());
 }
 
-std::vector<int> refined(const MeshDescription& mesh, const PatchNumbering& numbering, const CutResult& cut,
+std::vector<int> refined(const DualGraph& graph, const FaceGeometry& geometry, const Eigen::MatrixXd& scores,
                          const std::vector<int>& part_of_face, int parts, RefineMode refinement) {
     const auto holding = [&](double reach) {
-        return holding_costs(mesh.graph, mesh.geometry, part_of_face, parts, reach);
+        return holding_costs(graph, geometry, part_of_face, parts, reach);
     };
     if (refinement == RefineMode::none) return part_of_face;
-    if (refinement == RefineMode::fuzzy) return fuzzy_cut(mesh.graph, part_of_face);
-    if (refinement == RefineMode::held || cut.scores.size() == 0)
-        return fuzzy_cut(mesh.graph, part_of_face, {}, holding(crease_reach));
-    const Eigen::MatrixXd scores = scores_of_faces(mesh, numbering, cut.scores);
-    return fuzzy_cut(mesh.graph, part_of_face, {.strip_width = score_strip},
-                     holding(score_reach) + score_weight * score_costs(mesh.graph, mesh.geometry, scores));
+    if (refinement == RefineMode::fuzzy) return fuzzy_cut(graph, part_of_face);
+    if (refinement == RefineMode::held || scores.size() == 0)
+        return fuzzy_cut(graph, part_of_face, {}, holding(crease_reach));
+    return fuzzy_cut(graph, part_of_face, {.strip_width = score_strip},
+                     holding(score_reach) + score_weight * score_costs(graph, geometry, scores));
 }
 
 }  // namespace
@@ -102,8 +102,12 @@ std::vector<int> refined(const MeshDescription& mesh, const PatchNumbering& numb
 MeshLabels labels_of_mesh(const MeshDescription& mesh, const PatchNumbering& numbering, const CutResult& cut,
                           int parts, RefineMode refine, const std::vector<int>& given) {
     const auto part_of = parts_of_mesh(numbering, mesh.mesh, cut.part_of_patch);
+    DualGraph graph = mesh.graph;
+    index_incidence(graph);
+    Eigen::MatrixXd scores;
+    if (refine == RefineMode::scored) scores = scores_of_faces(mesh, numbering, cut.scores);
     const std::vector<int> part_of_face = refined(
-        mesh, numbering, cut, vote_face_labels(mesh.patches, part_of, parts, mesh.graph), parts, refine);
+        graph, mesh.geometry, scores, vote_face_labels(mesh.patches, part_of, parts, graph), parts, refine);
     std::vector<int> part = carry_labels_back(mesh.map, part_of_face, mesh.geometry.area);
     std::vector<float> confidence = confidence_of_faces(mesh, numbering, cut, part, parts);
     keep_given(given, part, confidence);

@@ -25,7 +25,7 @@ std::vector<LabelPair> touching_labels(const DualGraph& graph, const std::vector
     std::vector<LabelPair> pairs;
     for (const DualEdge& e : graph.edges) {
         const LabelPair pair = std::minmax({label[at(e.face_a)], label[at(e.face_b)]});
-        if (!e.is_virtual && pair.first != pair.second) pairs.push_back(pair);
+        if (!e.is_virtual() && pair.first != pair.second) pairs.push_back(pair);
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -37,7 +37,7 @@ template <typename Visit>
 void for_each_neighbor(const DualGraph& graph, int face, const Visit& visit) {
     for (int k = graph.offsets[at(face)]; k < graph.offsets[at(face) + 1]; ++k) {
         const int e = graph.incident[at(k)];
-        if (!graph.edges[at(e)].is_virtual) visit(e, graph.other_face(e, face));
+        if (!graph.edges[at(e)].is_virtual()) visit(e, graph.other_face(e, face));
     }
 }
 
@@ -62,7 +62,7 @@ BoundaryDistance distance_to_boundary(const DualGraph& graph, const std::vector<
     for (const DualEdge& e : graph.edges) {
         const int label_a = label[at(e.face_a)];
         const int label_b = label[at(e.face_b)];
-        if (e.is_virtual || !is_boundary(label_a, label_b)) continue;
+        if (e.is_virtual() || !is_boundary(label_a, label_b)) continue;
         reach(e.face_a, 1);
         reach(e.face_b, 1);
     }
@@ -151,7 +151,7 @@ double mean_real_length(const DualGraph& graph) {
     double sum = 0.0;
     double count = 0.0;
     for (const DualEdge& e : graph.edges) {
-        if (e.is_virtual) continue;
+        if (e.is_virtual()) continue;
         sum += e.length;
         count += 1.0;
     }
@@ -174,7 +174,7 @@ std::vector<double> surface_distance(const DualGraph& graph, const FaceGeometry&
         return (geometry.centroid.col(a) - geometry.centroid.col(b)).norm();
     };
     for (const DualEdge& e : graph.edges) {
-        if (e.is_virtual) continue;
+        if (e.is_virtual()) continue;
         if (label[at(e.face_a)] == label[at(e.face_b)]) continue;
         reach(e.face_a, 0.5 * step(e.face_a, e.face_b));
         reach(e.face_b, 0.5 * step(e.face_a, e.face_b));
@@ -198,7 +198,7 @@ std::vector<double> fuzzy_cut_capacities(const DualGraph& graph, const FuzzyCutO
     double real_edges = 0.0;
     for (std::size_t e = 0; e < angular.size(); ++e) {
         const DualEdge& edge = graph.edges[e];
-        if (edge.is_virtual) continue;
+        if (edge.is_virtual()) continue;
         const double eta = edge.dihedral < std::numbers::pi ? 1.0 : options.convex_weight;
         angular[e] = eta * (1.0 + std::cos(edge.dihedral));  // the normals' angle is |dihedral - pi|
         angular_sum += angular[e];
@@ -207,7 +207,7 @@ std::vector<double> fuzzy_cut_capacities(const DualGraph& graph, const FuzzyCutO
     }
     std::vector<double> capacity(angular.size(), 0.0);
     for (std::size_t e = 0; e < capacity.size(); ++e) {
-        if (graph.edges[e].is_virtual || !(length_sum > 0.0)) continue;
+        if (graph.edges[e].is_virtual() || !(length_sum > 0.0)) continue;
         const double relative_bend = angular_sum > 0.0 ? angular[e] * real_edges / angular_sum : 0.0;
         capacity[e] = graph.edges[e].length * real_edges / length_sum / (1.0 + relative_bend);
     }

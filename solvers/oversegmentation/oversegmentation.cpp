@@ -32,9 +32,9 @@ constexpr double large_patch = 8.0;
 constexpr int most_cuts = 10;
 
 double edge_noise(const DualEdge& edge, std::uint64_t seed) {
-    const auto a = static_cast<std::uint64_t>(edge.is_virtual ? edge.face_a : edge.vertex_a);
-    const auto b = static_cast<std::uint64_t>(edge.is_virtual ? edge.face_b : edge.vertex_b);
-    return normal_of(hash_words({seed, edge.is_virtual ? 1U : 0U, a, b}));
+    const auto a = static_cast<std::uint64_t>(edge.is_virtual() ? edge.face_a : edge.vertex_a);
+    const auto b = static_cast<std::uint64_t>(edge.is_virtual() ? edge.face_b : edge.vertex_b);
+    return normal_of(hash_words({seed, edge.is_virtual() ? 1U : 0U, a, b}));
 }
 
 WeightedGraph noisy_face_graph(const FaceGeometry& geometry, const DualGraph& graph, double noise,

@@ -38,7 +38,7 @@ SparseMatrix joined_laplacian(const TriMesh& mesh, const DualGraph& graph) {
     SparseMatrix laplacian = cotangent_laplacian(mesh);
     std::vector<Eigen::Triplet<double>> springs;
     for (const DualEdge& edge : graph.edges) {
-        if (!edge.is_virtual) continue;
+        if (!edge.is_virtual()) continue;
         constexpr double weight = 1.0 / 9.0;  // nine pairs of corners share it
         for (const int a : mesh.faces.col(edge.face_a)) {
             for (const int b : mesh.faces.col(edge.face_b)) {

@@ -130,7 +130,7 @@ Eigen::VectorXd smoothed(const DualGraph& graph, const Eigen::VectorXd& values) 
     Eigen::VectorXd sum = values;
     std::vector<int> count(at(graph.face_count), 1);
     for (const DualEdge& edge : graph.edges) {
-        if (edge.is_virtual) continue;
+        if (edge.is_virtual()) continue;
         sum[edge.face_a] += values[edge.face_b];
         sum[edge.face_b] += values[edge.face_a];
         ++count[at(edge.face_a)];

@@ -20,7 +20,7 @@ std::vector<std::vector<int>> label_pieces(const DualGraph& graph, const std::ve
             for (int i = graph.offsets[face]; i < graph.offsets[face + 1]; ++i) {
                 const int edge = graph.incident[i];
                 const int other = graph.other_face(edge, face);
-                if (graph.edges[edge].is_virtual || seen[other] != 0 || labels[other] != labels[face])
+                if (graph.edges[edge].is_virtual() || seen[other] != 0 || labels[other] != labels[face])
                     continue;
                 seen[other] = 1;
                 piece.push_back(other);
@@ -39,7 +39,7 @@ int surrounding_label(const DualGraph& graph, const std::vector<int>& labels, co
         for (int i = graph.offsets[face]; i < graph.offsets[face + 1]; ++i) {
             const DualEdge& edge = graph.edges[graph.incident[i]];
             const int label = labels[graph.other_face(graph.incident[i], face)];
-            if (!edge.is_virtual && label != own) boundary[label] += edge.length;
+            if (!edge.is_virtual() && label != own) boundary[label] += edge.length;
         }
     }
     const auto longest = std::max_element(boundary.begin(), boundary.end(),
@@ -52,7 +52,7 @@ int label_of_two_neighbours(const DualGraph& graph, const std::vector<int>& labe
     std::map<int, int> neighbours;
     for (int i = graph.offsets[face]; i < graph.offsets[face + 1]; ++i) {
         const int edge = graph.incident[i];
-        if (graph.edges[edge].is_virtual) continue;
+        if (graph.edges[edge].is_virtual()) continue;
         const int label = labels[graph.other_face(edge, face)];
         if (label != labels[face] && ++neighbours[label] == 2) return label;
     }

@@ -69,7 +69,7 @@ void join_mesh_edges(const TriMesh& mesh, ConnectionList& list) {
 
 void join_shortcuts(const TriMesh& mesh, const DualGraph& graph, ConnectionList& list) {
     for (const DualEdge& edge : graph.edges) {
-        if (edge.is_virtual) continue;
+        if (edge.is_virtual()) continue;
         const int apex = opposite_vertex(mesh, edge.face_a, edge);
         const int other_apex = opposite_vertex(mesh, edge.face_b, edge);
         if (apex < 0 || other_apex < 0 || apex == other_apex) continue;
@@ -100,7 +100,7 @@ int join_virtual_edges(const TriMesh& mesh, const DualGraph& graph, ConnectionLi
         return entry->second;
     };
     for (const DualEdge& edge : graph.edges) {
-        if (!edge.is_virtual) continue;
+        if (!edge.is_virtual()) continue;
         const int a = node_of(edge.face_a);
         const int b = node_of(edge.face_b);
         list.join(a, b, (centroid(edge.face_a) - centroid(edge.face_b)).norm());

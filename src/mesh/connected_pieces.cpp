@@ -20,7 +20,7 @@ std::vector<int> connected_pieces(const DualGraph& graph, const std::vector<int>
             stack.pop_back();
             for (int k = graph.offsets[at(f)]; k < graph.offsets[at(f) + 1]; ++k) {
                 const int e = graph.incident[at(k)];
-                if (virtual_edges == VirtualEdges::ignored && graph.edges[at(e)].is_virtual) continue;
+                if (virtual_edges == VirtualEdges::ignored && graph.edges[at(e)].is_virtual()) continue;
                 const int g = graph.other_face(e, f);
                 if (piece[at(g)] >= 0 || label_of_face[at(f)] != label_of_face[at(g)]) continue;
                 piece[at(g)] = count;

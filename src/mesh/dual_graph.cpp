@@ -70,11 +70,8 @@ void join_components(DualGraph& graph, const FaceGeometry& geometry) {
     const double length = virtual_length(geometry);
     graph.edges.reserve(graph.edges.size() + at(count - 1));
     for (const PointJoin& join : spanning_joins(geometry.centroid, component, count)) {
-        graph.edges.push_back({.face_a = join.point_a,
-                               .face_b = join.point_b,
-                               .length = length,
-                               .dihedral = std::numbers::pi,
-                               .is_virtual = true});
+        graph.edges.push_back(
+            {.face_a = join.point_a, .face_b = join.point_b, .length = length, .dihedral = std::numbers::pi});
     }
     sort_edges(graph.edges);
     index_incidence(graph);
@@ -105,6 +102,11 @@ DualGraph dual_graph(const TriMesh& mesh, const FaceGeometry& geometry) {
     index_incidence(graph);
     join_components(graph, geometry);
     return graph;
+}
+
+void release_incidence(DualGraph& graph) {
+    graph.offsets = {};
+    graph.incident = {};
 }
 
 std::vector<int> face_components(const DualGraph& graph) {

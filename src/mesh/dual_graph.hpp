@@ -15,18 +15,18 @@ namespace coseg {
 struct DualEdge {
     int face_a = -1;  ///< face_a < face_b
     int face_b = -1;
-    int vertex_a = -1;  ///< the mesh edge's end points; -1 for a virtual edge
+    int vertex_a = -1;  ///< the mesh edge's end points; -1 for a virtual edge, and only there
     int vertex_b = -1;
     double length = 0.0;  ///< the mesh edge's; a virtual edge has a fictitious short one
     /// Radians in (0, 2 pi), measured OUTSIDE the solid: less than pi is concave, pi flat, more than pi
     /// convex.
     double dihedral = 0.0;
-    bool is_virtual = false;  ///< joins two components that share no mesh edge
+    /// Whether it joins two components that share no mesh edge.
+    [[nodiscard]] bool is_virtual() const noexcept { return vertex_a < 0; }
     static constexpr auto fields() {
         return std::tuple(field("face_a", &DualEdge::face_a), field("face_b", &DualEdge::face_b),
                           field("vertex_a", &DualEdge::vertex_a), field("vertex_b", &DualEdge::vertex_b),
-                          field("length", &DualEdge::length), field("dihedral", &DualEdge::dihedral),
-                          field("is_virtual", &DualEdge::is_virtual));
+                          field("length", &DualEdge::length), field("dihedral", &DualEdge::dihedral));
     }
 };
 
@@ -57,6 +57,9 @@ DualGraph dual_graph(const TriMesh& mesh, const FaceGeometry& geometry);
 
 /// Fills `offsets` and `incident` from `face_count` and `edges`.
 void index_incidence(DualGraph& graph);
+
+/// Frees both, for a graph that waits among those of a collection until its faces get labels.
+void release_incidence(DualGraph& graph);
 
 /// The component of every face when virtual edges are left out. Components are numbered from 0 in the order
 /// of their lowest face.

@@ -65,7 +65,7 @@ void set_consistency(SegmentationAgreement& agreement, const Overlaps& overlaps,
 std::vector<DualEdge> boundary_edges(const DualGraph& graph, const std::vector<int>& label) {
     std::vector<DualEdge> edges;
     for (const DualEdge& e : graph.edges) {
-        if (e.is_virtual) continue;
+        if (e.is_virtual()) continue;
         if (label[at(e.face_a)] != label[at(e.face_b)]) edges.push_back(e);
     }
     return edges;

@@ -33,7 +33,7 @@ std::vector<PatchNeighbors> patch_neighbors(const DualGraph& graph, const std::v
         const int b = patch_of_face[at(e.face_b)];
         if (a == b) continue;
         const double mean_curvature =
-            e.is_virtual
+            e.is_virtual()
                 ? 0.0
                 : 0.5 * (vertex_minimum_curvature[e.vertex_a] + vertex_minimum_curvature[e.vertex_b]);
         contacts.push_back({std::min(a, b), std::max(a, b), e.length, e.length * mean_curvature});

@@ -122,9 +122,14 @@ TEST(FuzzyCut, CapacitiesFollowTheFormula) {
     DualGraph graph{.face_count = 4, .edges = {}, .offsets = {}, .incident = {}};
     const double pi = std::numbers::pi;
     for (const double dihedral : {pi, 0.5 * pi, 1.5 * pi}) {
-        graph.edges.push_back({.face_a = 0, .face_b = 1, .length = dihedral / pi, .dihedral = dihedral});
+        graph.edges.push_back({.face_a = 0,
+                               .face_b = 1,
+                               .vertex_a = 0,
+                               .vertex_b = 1,
+                               .length = dihedral / pi,
+                               .dihedral = dihedral});
     }
-    graph.edges.push_back({.face_a = 2, .face_b = 3, .length = 7.0, .dihedral = pi, .is_virtual = true});
+    graph.edges.push_back({.face_a = 2, .face_b = 3, .length = 7.0, .dihedral = pi});
     const std::vector<double> capacity = fuzzy_cut_capacities(graph, {.convex_weight = 0.2});
     const double mean = (0.0 + 1.0 + 0.2) / 3.0;  // 1 - cos of 0, 90 (concave) and 90 degrees (convex)
     EXPECT_NEAR(capacity[0], 1.0, 1e-12);         // lengths 1, .5, 1.5: mean 1

@@ -77,7 +77,7 @@ Prepared grid_with_crumbs(int cells) {
     p.geometry.total_area = p.geometry.area.sum();
     const auto join = [&](int a, int b, double length) {
         const int vertex = 2 * static_cast<int>(p.graph.edges.size());
-        p.graph.edges.push_back({a, b, vertex, vertex + 1, length, std::numbers::pi, false});
+        p.graph.edges.push_back({a, b, vertex, vertex + 1, length, std::numbers::pi});
     };
     for (int face = 0; face < cells * cells; ++face) {
         if (face % cells + 1 < cells) join(face, face + 1, 1.0);
@@ -169,14 +169,11 @@ TEST(Oversegmentation, FacesWithoutAreaAreCoveredToo) {
 TEST(Oversegmentation, VirtualEdgesJoinComponents) {
     Prepared p = prepared(test::disjoint_union(test::sphere(2), test::box(4, 1, 1, 8)));
     expect_valid(oversegment(p.geometry, p.graph, {}, 1), p.graph, 50);
-    std::erase_if(p.graph.edges, [](const DualEdge& e) { return e.is_virtual; });
+    std::erase_if(p.graph.edges, [](const DualEdge& e) { return e.is_virtual(); });
     DualGraph joined{
         .face_count = p.graph.face_count, .edges = p.graph.edges, .offsets = {0}, .incident = {}};
-    joined.edges.push_back({.face_a = 0,
-                            .face_b = p.graph.face_count - 1,
-                            .length = 0.01,
-                            .dihedral = std::numbers::pi,
-                            .is_virtual = true});
+    joined.edges.push_back(
+        {.face_a = 0, .face_b = p.graph.face_count - 1, .length = 0.01, .dihedral = std::numbers::pi});
     for (int f = 0; f < joined.face_count; ++f) {
         for (std::size_t e = 0; e < joined.edges.size(); ++e) {
             if (joined.edges[e].face_a == f || joined.edges[e].face_b == f)

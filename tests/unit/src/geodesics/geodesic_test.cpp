@@ -37,10 +37,9 @@ TriMesh equilateral_plane(int n) {
 /// The dual graph with one virtual edge of ours in place of whatever joins the components.
 DualGraph joined_at(const TriMesh& mesh, int face_a, int face_b) {
     DualGraph graph = dual_graph(mesh, face_geometry(mesh));
-    std::erase_if(graph.edges, [](const DualEdge& e) { return e.is_virtual; });
+    std::erase_if(graph.edges, [](const DualEdge& e) { return e.is_virtual(); });
     DualEdge bridge{.face_a = face_a, .face_b = face_b};
     bridge.dihedral = std::numbers::pi;
-    bridge.is_virtual = true;
     graph.edges.push_back(bridge);
     return graph;
 }
@@ -167,7 +166,7 @@ TEST(Geodesic, ComponentsThatNothingJoinsAreRefused) {
     const TriMesh mesh = test::disjoint_union(test::sphere(1), test::sphere(1));
     const FaceGeometry geometry = face_geometry(mesh);
     DualGraph graph = dual_graph(mesh, geometry);
-    std::erase_if(graph.edges, [](const DualEdge& e) { return e.is_virtual; });
+    std::erase_if(graph.edges, [](const DualEdge& e) { return e.is_virtual(); });
     EXPECT_THROW((void)geodesic_table(mesh, geometry, graph, 5, 1), Error);
 }
 

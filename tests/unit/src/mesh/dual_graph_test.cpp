@@ -113,8 +113,8 @@ TEST(SpanningJoins, CoincidentPointsAreJoinedAtDistanceZero) {
 TEST(DualGraphComponents, OneComponentHasNoVirtualEdges) {
     const TriMesh mesh = test::torus(1, 0.3, 20, 10);
     const DualGraph graph = dual_graph(mesh, face_geometry(mesh));
-    EXPECT_TRUE(
-        std::none_of(graph.edges.begin(), graph.edges.end(), [](const DualEdge& e) { return e.is_virtual; }));
+    EXPECT_TRUE(std::none_of(graph.edges.begin(), graph.edges.end(),
+                             [](const DualEdge& e) { return e.is_virtual(); }));
     EXPECT_TRUE(is_connected(graph));
 }
 
@@ -126,7 +126,7 @@ TEST(DualGraphComponents, TwoSpheresAreJoinedWhereTheyAreNearest) {
     const DualGraph graph = dual_graph(mesh, geometry);
     int joins = 0;
     for (const DualEdge& edge : graph.edges) {
-        if (!edge.is_virtual) continue;
+        if (!edge.is_virtual()) continue;
         ++joins;
         EXPECT_LT(edge.face_a, mesh.face_count() / 2);
         EXPECT_GE(edge.face_b, mesh.face_count() / 2);
@@ -151,9 +151,9 @@ TEST(DualGraphComponents, ManyComponentsAreJoinedAndEdgesStaySorted) {
     const TriMesh mesh = many_boxes(4, 1.0);
     const DualGraph graph = dual_graph(mesh, face_geometry(mesh));
     EXPECT_TRUE(is_connected(graph));
-    EXPECT_EQ(
-        std::count_if(graph.edges.begin(), graph.edges.end(), [](const DualEdge& e) { return e.is_virtual; }),
-        63);
+    EXPECT_EQ(std::count_if(graph.edges.begin(), graph.edges.end(),
+                            [](const DualEdge& e) { return e.is_virtual(); }),
+              63);
     EXPECT_TRUE(
         std::is_sorted(graph.edges.begin(), graph.edges.end(), [](const DualEdge& x, const DualEdge& y) {
             return std::pair{x.face_a, x.face_b} < std::pair{y.face_a, y.face_b};

@@ -15,8 +15,11 @@ DualGraph row_of_faces(const std::vector<double>& lengths) {
     for (int f = 0; f < graph.face_count; ++f) {
         if (f > 0) graph.incident.push_back(f - 1);
         if (f + 1 < graph.face_count) {
-            graph.edges.push_back(
-                {.face_a = f, .face_b = f + 1, .length = lengths[static_cast<std::size_t>(f)]});
+            graph.edges.push_back({.face_a = f,
+                                   .face_b = f + 1,
+                                   .vertex_a = f,
+                                   .vertex_b = f + 1,
+                                   .length = lengths[static_cast<std::size_t>(f)]});
             graph.incident.push_back(f);
         }
         graph.offsets.push_back(static_cast<int>(graph.incident.size()));

@@ -77,12 +77,10 @@ TEST(PatchRelations, NeighboursAreSortedAndCornersDoNotTouch) {
 
 TEST(PatchRelations, VirtualEdgesCountAsSmoothBoundary) {
     const Square s;
-    DualGraph graph{
-        .face_count = 2,
-        .edges =
-            {{.face_a = 0, .face_b = 1, .length = 0.125, .dihedral = std::numbers::pi, .is_virtual = true}},
-        .offsets = {0, 1, 2},
-        .incident = {0, 0}};
+    DualGraph graph{.face_count = 2,
+                    .edges = {{.face_a = 0, .face_b = 1, .length = 0.125, .dihedral = std::numbers::pi}},
+                    .offsets = {0, 1, 2},
+                    .incident = {0, 0}};
     const auto pairs = patch_neighbors(graph, {0, 1}, Eigen::VectorXd::Ones(3));
     ASSERT_EQ(pairs.size(), 1U);
     EXPECT_EQ(pairs[0].boundary_length, 0.125);
@@ -129,10 +127,8 @@ TEST(ConnectedPieces, ChessboardFieldsOfASquareStayApart) {
 }
 
 TEST(ConnectedPieces, VirtualEdgesConnectUnlessIgnored) {
-    const DualGraph graph{.face_count = 2,
-                          .edges = {{.face_a = 0, .face_b = 1, .is_virtual = true}},
-                          .offsets = {0, 1, 2},
-                          .incident = {0, 0}};
+    const DualGraph graph{
+        .face_count = 2, .edges = {{.face_a = 0, .face_b = 1}}, .offsets = {0, 1, 2}, .incident = {0, 0}};
     EXPECT_EQ(connected_pieces(graph, {4, 4}), (std::vector<int>{0, 0}));
     EXPECT_EQ(connected_pieces(graph, {4, 4}, VirtualEdges::ignored), (std::vector<int>{0, 1}));
 }
