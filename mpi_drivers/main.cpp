@@ -17,6 +17,7 @@
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/config_file.hpp"
 #include "mpi_drivers/options/help_pages.hpp"
+#include "mpi_drivers/process/mpi_start.hpp"
 #include "mpi_drivers/process/self_launch.hpp"
 #include "mpi_drivers/process/signals.hpp"
 #include "mpi_drivers/process/version.hpp"
@@ -183,8 +184,7 @@ int main(int argc, char** argv) {
     coseg::launch_on_all_cores(argc, argv);
     if (has_state_folder(argc, argv)) coseg::heed_stop_requests();
     coseg::let_long_files_fail();
-    int provided = 0;
-    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);  // threads that watch call no MPI
+    coseg::initialise_mpi(MPI_THREAD_FUNNELED);  // threads that watch call no MPI
     return_freed_memory();
     int code = 0;
     {

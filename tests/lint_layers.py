@@ -74,8 +74,8 @@ ROOMS = {
     # co_segmentation, assignment and clustering, the lists of the stages; main.cpp belongs to no room.
     "mpi_drivers": ("mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe", "mpi_drivers/optimise",
                     "mpi_drivers/partition", "mpi_drivers/results", "mpi_drivers/editing"),
-    "mpi_drivers/interface": ("mpi_drivers", "mpi_drivers/describe", "mpi_drivers/optimise", "mpi_drivers/options",
-                              "mpi_drivers/finished_runs"),
+    "mpi_drivers/interface": ("mpi_drivers", "mpi_drivers/process", "mpi_drivers/describe", "mpi_drivers/optimise",
+                              "mpi_drivers/options", "mpi_drivers/finished_runs"),
     "mpi_drivers/commands": ("mpi_drivers", "mpi_drivers/process", "mpi_drivers/options", "mpi_drivers/describe",
                              "mpi_drivers/optimise", "mpi_drivers/partition", "mpi_drivers/results",
                              "mpi_drivers/finished_runs", "mpi_drivers/editing"),

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "mpi_drivers/process/mpi_start.hpp"
 #include "solvers/petsc/petsc_session.hpp"
 #include "src/base/error.hpp"
 
@@ -35,8 +36,7 @@ void start_mpi() {
     if (mpi_is_finalized())
         throw Error(ExitCode::usage, "MPI has been finalised in this process; call coseg before that");
     if (is_started != 0) return;
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+    initialise_mpi(MPI_THREAD_SERIALIZED);
     std::atexit(end_mpi);
 }
 
