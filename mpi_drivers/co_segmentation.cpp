@@ -76,6 +76,7 @@ PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entri
     folders.end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
     RunOptions counted = options;
     counted.partition.parts = static_cast<int>(cut.part_share.size());  // --parts auto has found it
+    counted.description.oversegmentations = collection.numbering.oversegmentations();  // likewise
     return {{std::move(counted), std::move(collection), std::move(kept), std::move(optimisation),
              std::move(cut), std::move(examples)},
             std::move(ranges),
@@ -102,13 +103,13 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     refuse_contradictions(options);
     if (options.output.profile) begin_profile(log);
     RunFolders folders(comm, options.output, options.process);
-    std::vector<OptionValue> values = option_values(options);
-    RunCheckpoints checkpoints(comm, folders.state(), cut_option_text(values, petsc_arguments));
+    RunCheckpoints checkpoints(comm, folders.state(),
+                               cut_option_text(option_values(options), petsc_arguments));
     auto [base, ranges, model, alignment] =
         partitioned(comm, entries, options, folders, checkpoints, corrections.is_given, log);
     auto& [base_options, collection, features, optimisation, cut, examples] = base;
-    options.partition.parts = base_options.partition.parts;
-    values = with_part_number(std::move(values), options.partition.parts);
+    options = base_options;
+    std::vector<OptionValue> values = option_values(options);
 
     // What a person says of the parts, and how the others follow.
     if (corrections.is_given) {
@@ -148,8 +149,8 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     AlignmentFile in_file_units;
     if (entries != nullptr) in_file_units = alignment_in_file_units(comm, collection, alignment);
     folders.commit(comm);
-    return {std::move(collection), std::move(optimisation), std::move(cut),          std::move(labels),
-            std::move(model),      std::move(report),       std::move(in_file_units)};
+    return {std::move(options), std::move(collection), std::move(optimisation), std::move(cut),
+            std::move(labels),  std::move(model),      std::move(report),       std::move(in_file_units)};
 }
 
 }  // namespace coseg

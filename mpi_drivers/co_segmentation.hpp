@@ -18,6 +18,7 @@ namespace coseg {
 
 /// The outcome of a run. Labels and descriptions of meshes are on the ranks that hold them.
 struct CoSegmented {
+    RunOptions options;  ///< as given, with the numbers that were found: of parts and of over-segmentations
     Collection collection;
     Optimisation optimisation;
     CutResult cut;

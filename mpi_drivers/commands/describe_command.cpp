@@ -47,10 +47,11 @@ void describe(const Comm& world, const RunOptions& options, const std::string& s
     const ProcessOptions& process = options.process;
     StageLog log(world, process.quiet ? Verbosity::quiet : Verbosity::normal);
     const RunState state(world, process.state, LockMode::shared, process.checkpoint_seconds);
-    const std::vector<MeshEntry> entries = entries_of(shard, list_meshes(world, process.inputs));
+    const std::vector<MeshEntry> all = list_meshes(world, process.inputs);
+    const DescriptionOptions description = with_oversegmentations(description_options(options), all.size());
     log.begin("describe");
     const DescribeTotals totals =
-        describe_into_state(world, entries, description_options(options), process.strict, state, log);
+        describe_into_state(world, entries_of(shard, all), description, process.strict, state, log);
     log.end(std::to_string(totals.described) + " described, " + std::to_string(totals.reused) +
             " were in the state folder");
     for (const SetAside& mesh : totals.set_aside) log.warn("set aside: " + mesh.reason);

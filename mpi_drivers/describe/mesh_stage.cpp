@@ -237,36 +237,74 @@ DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry
     return totals;
 }
 
+namespace {
+
+/// Moves what cannot be used out of `entries`.
+void set_aside(std::vector<MeshEntry>& entries, const std::vector<Failure>& failures,
+               std::vector<SetAside>& aside) {
+    std::vector<MeshEntry> usable;
+    auto failure = failures.begin();  // both ascend
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        if (failure != failures.end() && failure->entry == static_cast<int>(k)) {
+            aside.push_back({entries[k].path, failure->sentence});
+            ++failure;
+        } else {
+            usable.push_back(std::move(entries[k]));
+        }
+    }
+    entries = std::move(usable);
+}
+
+struct UsableMeshes {
+    std::vector<MeshEntry> entries;
+    std::vector<SetAside> set_aside;
+    std::vector<DescribedMesh> described;  ///< of this rank, numbered by `entries`
+    int oversegmentations = 0;
+};
+
+/// Describes the meshes, and again those that can be used where, being fewer, they get more
+/// over-segmentations: a collection has the labels that it has without its unusable meshes.
+UsableMeshes describe_usable(const Comm& comm, const std::vector<MeshEntry>& entries,
+                             const DescriptionOptions& options, bool strict, const RunState* state,
+                             StageLog& log) {
+    UsableMeshes usable{.entries = entries, .set_aside = {}, .described = {}};
+    for (;;) {
+        const DescriptionOptions counted = with_oversegmentations(options, usable.entries.size());
+        Attempt attempt = describe_dealt_meshes(comm, usable.entries, counted, state, Keep::all, log);
+        const std::vector<Failure> failures = gather_failures(comm, attempt);
+        refuse_if_unwritable(failures);
+        if (state != nullptr) end_if_asked(comm, *state, attempt, usable.entries.size());
+        refuse_if_unusable(failures, usable.entries.size(), strict);
+        set_aside(usable.entries, failures, usable.set_aside);
+        renumber(attempt.described, failures);
+        usable.described = std::move(attempt.described);
+        usable.oversegmentations = counted.oversegmentations;
+        const auto wanted = with_oversegmentations(options, usable.entries.size()).oversegmentations;
+        if (wanted == counted.oversegmentations) return usable;
+    }
+}
+
+}  // namespace
+
 DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
                                         const DescriptionOptions& options, bool strict, const RunState* state,
                                         StageLog& log) {
     log.begin("describe");
-    Attempt attempt = describe_dealt_meshes(comm, entries, options, state, Keep::all, log);
-    const std::vector<Failure> failures = gather_failures(comm, attempt);
-    refuse_if_unwritable(failures);
-    if (state != nullptr) end_if_asked(comm, *state, attempt, entries.size());
-    refuse_if_unusable(failures, entries.size(), strict);
-
+    UsableMeshes usable = describe_usable(comm, entries, options, strict, state, log);
     DescribedCollection result;
     Collection& collection = result.collection;
-    renumber(attempt.described, failures);
-    for (DescribedMesh& described : attempt.described) {
+    for (DescribedMesh& described : usable.described) {
         collection.local.push_back(std::move(described.mesh));
         result.descriptors.of_mesh.push_back(std::move(described.descriptors));
     }
-    auto failure = failures.begin();
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-        if (failure != failures.end() && failure->entry == static_cast<int>(k)) {
-            collection.set_aside.push_back({entries[k].path, failure->sentence});
-            ++failure;
-        } else {
-            MeshFacts mesh;
-            mesh.name = entries[k].name;
-            mesh.path = entries[k].path;
-            collection.meshes.push_back(std::move(mesh));
-        }
+    for (const MeshEntry& entry : usable.entries) {
+        MeshFacts mesh;
+        mesh.name = entry.name;
+        mesh.path = entry.path;
+        collection.meshes.push_back(std::move(mesh));
     }
-    share_facts(comm, collection, options.oversegmentations);
+    collection.set_aside = std::move(usable.set_aside);
+    share_facts(comm, collection, usable.oversegmentations);
     result.descriptors.table = descriptor_table();
     log.end(described_summary(collection));
     warn_of_meshes(collection, log);

@@ -42,8 +42,9 @@ std::vector<MeshEntry> list_meshes(const Comm& comm, const std::vector<std::stri
 /// Describes all meshes. Collective. Throws AgreedError(input) if no mesh can be used, or with options.strict
 /// if any cannot. With a state (may be null), descriptions are taken from its folder and kept there; throws
 /// AgreedError(output) if one cannot be written, AgreedError(checkpointed) if a rank has been asked to end.
-/// The schedule decides which rank computes what; the result, apart from `owner` and `seconds`, does not
-/// depend on it.
+/// Where options leave the number of over-segmentations open, it is that of as many shapes as can be used;
+/// the numbering has it. The schedule decides which rank computes what; the result, apart from `owner` and
+/// `seconds`, does not depend on it.
 DescribedCollection describe_collection(const Comm& comm, const std::vector<MeshEntry>& entries,
                                         const DescriptionOptions& options, bool strict, const RunState* state,
                                         StageLog& log);

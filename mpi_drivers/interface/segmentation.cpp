@@ -131,13 +131,12 @@ Segmentation segmented(LibraryCall& library, std::span<const Shape> given, const
     const CollectionShapes shapes(comm, given);
     CoSegmented done = co_segment(comm, &shapes.entries(), options, {}, library.log());
     Segmentation result;
-    options.partition.parts = static_cast<int>(done.cut.part_share.size());  // corrections may change it
-    result.parts = options.partition.parts;
+    result.parts = done.options.partition.parts;
     result.warnings = library.warnings();
     add_solution(result, done.optimisation.result, options.optimise.gap);
     if (settings.keep_model)
         result.model = std::make_shared<const Model>(
-            run_model(done.collection, done.model, done.cut.part_of_patch, options), "the model");
+            run_model(done.collection, done.model, done.cut.part_of_patch, done.options), "the model");
     result.report = std::move(done.report);
     broadcast(comm, result.report);
     result.shapes = in_order(shapes, done.collection,

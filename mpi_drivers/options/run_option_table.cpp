@@ -66,12 +66,15 @@ const CLI::Validator links_text(
 
 const std::string auto_word = "auto";
 
-const CLI::Validator part_number(
-    [](std::string& text) {
-        const bool is_fine = text == auto_word || CLI::Range(1, 1000)(text).empty();
-        return is_fine ? std::string() : text + " is neither auto nor a number from 1 to 1000";
-    },
-    "auto|NUMBER");
+/// A number from 1 to `most`, or the word auto.
+CLI::Validator number_or_auto(int most) {
+    const auto check = [most](std::string& text) {
+        const bool is_fine = text == auto_word || CLI::Range(1, most)(text).empty();
+        return is_fine ? std::string()
+                       : text + " is neither auto nor a number from 1 to " + std::to_string(most);
+    };
+    return {check, "auto|NUMBER"};
+}
 
 const CLI::Validator view_name(
     [](std::string& text) {
@@ -217,28 +220,27 @@ void RunOptionTable::add_picture() {
         options_.partition.align);
 }
 
-void RunOptionTable::add_parts() {
-    int& parts = options_.partition.parts;
-    const Row row{
-        "parts", Affects::cut, in_out_group,
-        "Number of parts K that the shapes are cut into, 1 to 1000, or auto: 2 to 12, found from the "
-        "shapes; required but with --examples, which say it"};
+CLI::Option* RunOptionTable::add_number_or_auto(const Row& row, int& variable, int found, int most) {
     remember(row, OptionKind::text,
-             [&parts] { return parts == found_parts ? auto_word : std::to_string(parts); });
-    const auto take = [&parts](const std::string& text) {
+             [&variable, found] { return variable == found ? auto_word : std::to_string(variable); });
+    const auto take = [&variable, found](const std::string& text) {
         if (text == auto_word)
-            parts = found_parts;
+            variable = found;
         else
-            CLI::detail::lexical_cast(text, parts);
+            CLI::detail::lexical_cast(text, variable);
     };
-    app_.add_option_function<std::string>("--" + row.key, take, row.help)
-        ->check(part_number)
+    return app_.add_option_function<std::string>("--" + row.key, take, row.help)
+        ->check(number_or_auto(most))
         ->group(row.group);
 }
 
 void RunOptionTable::add_results() {
     OutputOptions& output = options_.output;
-    add_parts();
+    add_number_or_auto(
+        {"parts", Affects::cut, in_out_group,
+         "Number of parts K that the shapes are cut into, 1 to 1000, or auto: 2 to 12, found from the "
+         "shapes; required but with --examples, which say it"},
+        options_.partition.parts, found_parts, 1000);
     // Where the labels are has no effect; they themselves are part of what a cut is found by.
     add({"examples", Affects::nothing, in_out_group,
          "Folder with labels of yours for one shape or more, NAME.seg with a number a face (0, 1, ..., or -1 "
@@ -297,9 +299,12 @@ void RunOptionTable::add_patches() {
     add({"patches", Affects::describe, patches_group, "Patches per over-segmentation of a mesh"},
         description.patches)
         ->check(CLI::Range(2, 1000));
-    add({"oversegmentations", Affects::describe, patches_group, "Over-segmentations per mesh, pooled"},
-        description.oversegmentations)
-        ->check(CLI::Range(1, 20));
+    add_number_or_auto(
+        {"oversegmentations", Affects::describe, patches_group,
+         "Over-segmentations per mesh, pooled, 1 to 20, or auto: 3, and up to 12 for fewer than 16 "
+         "shapes"},
+        description.oversegmentations, found_oversegmentations, 20)
+        ->default_str(auto_word);
     add({"cut-noise", Affects::describe, patches_group,
          "Log-normal noise on edge weights that makes over-segmentations differ"},
         description.cut_noise)

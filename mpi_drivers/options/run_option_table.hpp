@@ -37,7 +37,6 @@ class RunOptionTable {
     void add_input_and_output(OptionSet set);
     void add_preset();
     void add_seed();
-    void add_parts();
     void add_results();
     void add_state(OptionSet set);
     void add_picture();
@@ -52,6 +51,8 @@ class RunOptionTable {
     template <class T>
     CLI::Option* add(const Row& row, T& variable);
     CLI::Option* add_switch(const Row& row, bool& variable);
+    /// 1 to `most`, or the word auto, which is `found` in the variable.
+    CLI::Option* add_number_or_auto(const Row& row, int& variable, int found, int most);
     void remember(const Row& row, OptionKind kind, std::function<std::string()> print);
 
     struct Printer {

@@ -1,7 +1,9 @@
 #include "mpi_drivers/options/stage_options.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
 
 namespace coseg {
 
@@ -39,6 +41,17 @@ std::string to_string(const WeldChoice& weld) {
     std::array<char, 32> text{};
     const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), weld.tolerance);
     return {text.data(), end};
+}
+
+DescriptionOptions with_oversegmentations(DescriptionOptions options, std::size_t shapes) {
+    constexpr std::size_t least = 3;
+    constexpr std::size_t most = 12;
+    constexpr std::size_t in_all = 48;  // of 16 shapes with the least number
+    if (options.oversegmentations == found_oversegmentations) {
+        const std::size_t wanted = (in_all + shapes - 1) / std::max<std::size_t>(shapes, 1);
+        options.oversegmentations = static_cast<int>(std::clamp(wanted, least, most));
+    }
+    return options;
 }
 
 BorderLimits border_limits(const WeldChoice& weld) {

@@ -50,15 +50,19 @@ std::optional<WeldChoice> parsed_weld(std::string_view text);
 std::string to_string(const WeldChoice& weld);
 BorderLimits border_limits(const WeldChoice& weld);
 
+/// In place of a number of over-segmentations: as many as the number of shapes asks for.
+inline constexpr int found_oversegmentations = 0;
+
 /// The options that a mesh's description depends on, and no others: the descriptions in a state folder are
 /// found by them (description_file.hpp).
 struct DescriptionOptions {
     std::uint64_t seed = 1;
     WeldChoice weld = {};
     RemeshMode remesh = RemeshMode::automatic;
-    int patches = 50;           ///< per over-segmentation
-    int oversegmentations = 3;  ///< per mesh
-    double cut_noise = 0.3;     ///< log-normal deviation of edge weights between over-segmentations
+    int patches = 50;  ///< per over-segmentation
+    /// Per mesh; with_oversegmentations() puts a number where found_oversegmentations stands.
+    int oversegmentations = found_oversegmentations;
+    double cut_noise = 0.3;  ///< log-normal deviation of edge weights between over-segmentations
     int geodesic_samples = 300;
     std::vector<int> descriptors;  ///< rows of descriptor_table(), ascending; see description_options
     static constexpr auto fields() {
@@ -71,6 +75,11 @@ struct DescriptionOptions {
                           field("descriptors", &DescriptionOptions::descriptors));
     }
 };
+
+/// The options with the number of over-segmentations that the meshes of a collection of so many shapes get,
+/// where they leave it open: 3, and for fewer than 16 shapes so many more that the cut sees no fewer patches
+/// than those of 16, but at most 12.
+DescriptionOptions with_oversegmentations(DescriptionOptions options, std::size_t shapes);
 
 /// The range of values over which the bins of a scalar feature lie.
 enum class BinRanges {

@@ -51,6 +51,7 @@ printf '[run]\nfeature-weights = [1, 0, 1, 0, 1]\ninput = ["%s"]\n' "$work/set" 
 refuses "configuration file that is missing" 2 "$work/none.toml" \
     "$COSEG" run "${common[@]}" --config "$work/none.toml" --parts 2 --out "$work/x" "$work/set"
 
+common+=(--oversegmentations 3)
 "$COSEG" run "${common[@]}" --parts 3 --no-choose --refine none --out "$work/voted" "$work/set"
 "$COSEG" run "${common[@]}" --parts 3 --no-choose --refine fuzzy --out "$work/fuzzy" "$work/set"
 diff -rq "$work/voted/labels" "$work/fuzzy/labels" >"$work/differences" && fail "--refine fuzzy moves nothing"

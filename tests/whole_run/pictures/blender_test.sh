@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 addon=$COSEG_SOURCE/contrib/blender/coseg_blender
 mkdir "$work/meshes"
 for k in 1 2 3; do peanut "$work/meshes/peanut $k.off" "0.$((4 + k))"; done
-"$COSEG" run --quiet --no-sheet --no-html --no-keep-model --parts 2 --patches 10 --geodesic-samples 50 --out "$work/run" "$work/meshes"
+"$COSEG" run --quiet --no-sheet --no-html --no-keep-model --align off --parts 2 --patches 10 --geodesic-samples 50 --out "$work/run" "$work/meshes"
 printf 'body\nwaist\n' >"$work/run/names.txt"
 
 cat >"$work/plain.py" <<'END'

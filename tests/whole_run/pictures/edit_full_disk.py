@@ -6,7 +6,7 @@ usage: edit_full_disk.py COSEG RUN     the run is on a small disk, which is fill
 import os
 import sys
 
-from edit_client import Server, seg
+from edit_client import Server
 
 
 def fill(path):
@@ -20,19 +20,19 @@ def fill(path):
 
 
 def check(server, run):
-    names = [shape["name"] for shape in server.state()["shapes"]]
+    server.state()
     labels = server.labels(0)[0]
     server.post(f"label/0?face=0&region=piece&part={1 - labels[0]}")
-    painted = server.labels(0)[0]
+    painted, other = server.labels(0)[0], server.labels(1)[0]
     assert painted != labels
     with open(f"{run}/corrections.json", encoding="utf-8") as file:
         kept = file.read()
     filler = f"{run}/filler"
     fill(filler)
-    part = 1 - server.labels(1)[0][0]
+    part = 1 - other[0]
     refused = server.post(f"label/1?face=0&region=piece&part={part}", expect=507)["error"]
     assert "corrections.json" in refused and "No space left on device" in refused, refused
-    assert server.labels(0)[0] == painted and server.labels(1)[0] == seg(f"{run}/labels/{names[1]}.seg"), "an act that was refused"
+    assert server.labels(0)[0] == painted and server.labels(1)[0] == other, "an act that was refused"
     with open(f"{run}/corrections.json", encoding="utf-8") as file:
         assert file.read() == kept
     os.remove(filler)

@@ -387,7 +387,7 @@ def test_bad_shapes_can_be_set_aside():
     (dict(patches="3"), "patches: '3' is no whole number"),
     (dict(patches=3.0), "patches: 3.0 is no whole number"),
     (dict(patches=-3), "patches: .*-3"),
-    (dict(oversegmentations=True), "oversegmentations: True is no whole number"),
+    (dict(oversegmentations=True), "oversegmentations: True is no text"),
     (dict(max_iterations=2 ** 70), "max-iterations: .*1180591620717411303424"),
     (dict(alpha=True), "alpha: True is no number"),
     (dict(alpha=[0.1]), r"alpha: \[0.1\] is no number"),

@@ -46,7 +46,7 @@ report = json.load(open(sys.argv[1]))
 optimisation, options = report["optimisation"], report["options"]
 assert optimisation["reason"] == "gap_reached" and 0 <= optimisation["relative_gap"] <= 1e-4, optimisation
 assert optimisation["lower_bound"] <= optimisation["objective"] < optimisation["objective_at_zero"], optimisation
-assert optimisation["allowed_pairs"] == optimisation["patches"] * 6 * 150, optimisation
+assert options["oversegmentations"] == 8 and optimisation["allowed_pairs"] == optimisation["patches"] * 6 * 8 * 50, (options, optimisation)
 assert options["parts"] == 3 and options["geodesic-samples"] == 100 and options["to"].endswith("/run"), options
 assert [mesh["name"] for mesh in report["meshes"]] == ["goblet_0006", "goblet_0007"]
 END

@@ -64,7 +64,7 @@ TEST(RunOptionTable, SaysWhatEachNamedOptionTakes) {
         EXPECT_EQ(kind_of.at(name), OptionKind::number) << name;
     for (const char* name : {"choose", "sheet", "levels"})
         EXPECT_EQ(kind_of.at(name), OptionKind::on_or_off) << name;
-    for (const char* name : {"links", "weld", "remesh", "preset", "view", "examples"})
+    for (const char* name : {"links", "weld", "remesh", "preset", "view", "examples", "oversegmentations"})
         EXPECT_EQ(kind_of.at(name), OptionKind::text) << name;
     EXPECT_EQ(kind_of.at("feature-weights"), OptionKind::numbers);
     EXPECT_EQ(kind_of.count("parts"), 0U);  // said in another way

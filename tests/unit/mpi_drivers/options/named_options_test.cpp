@@ -36,6 +36,21 @@ TEST(NamedOptions, APresetGivesWayToWhatIsGiven) {
     EXPECT_EQ(options.optimise.alpha, 3.0);
 }
 
+TEST(NamedOptions, SmallCollectionsGetMoreOversegmentations) {
+    const auto found = [](const std::vector<NamedOption>& given, std::size_t shapes) {
+        return with_oversegmentations(options_by_name(given).description, shapes).oversegmentations;
+    };
+    const std::vector<std::pair<std::size_t, int>> expected = {{1, 12}, {4, 12}, {5, 10},  {6, 8},  {7, 7},
+                                                               {8, 6},  {9, 6},  {12, 4},  {15, 4}, {16, 3},
+                                                               {20, 3}, {17, 3}, {2000, 3}};
+    for (const auto& [shapes, number] : expected) {
+        EXPECT_EQ(found({}, shapes), number) << shapes;
+        EXPECT_EQ(found({{"oversegmentations", "auto"}}, shapes), number) << shapes;
+        EXPECT_EQ(found({{"oversegmentations", "5"}}, shapes), 5) << shapes;
+        EXPECT_EQ(found({{"preset", "paper"}}, shapes), 1) << shapes;
+    }
+}
+
 TEST(NamedOptions, WithoutAnyTheyAreTheDefaults) {
     const std::vector<OptionValue> given = option_values(options_by_name({}));
     const std::vector<OptionValue> standard = option_values({});
@@ -55,6 +70,8 @@ TEST(NamedOptions, WhatIsWrongIsRefused) {
     EXPECT_NE(sentence({"patchs", "3"}).find("did you mean 'patches'"), std::string::npos);
     EXPECT_NE(sentence({"patches", "1"}).find("--patches"), std::string::npos);
     EXPECT_NE(sentence({"patches", "many"}).find("--patches"), std::string::npos);
+    EXPECT_NE(sentence({"oversegmentations", "0"}).find("neither auto nor a number from 1 to 20"),
+              std::string::npos);
     EXPECT_NE(sentence({"alpha", "nan"}).find("finite"), std::string::npos);
     EXPECT_NE(sentence({"scope", "columns"}).find("columns"), std::string::npos);
     EXPECT_NE(sentence({"out", "here"}).find("'out' is no option"), std::string::npos);
