@@ -8,7 +8,7 @@ longest=$(printf 'x%.0s' {1..251})
 names=("$longest" $'caf\xe9' $'new\nline' 'quotes"and\backslash' ' blank ' 'größe' "${longest:0:232}")
 mkdir "$work/set"
 for k in "${!names[@]}"; do peanut "$work/set/${names[k]}.off" "0.$((50 + k))"; done
-quick=(--quiet --parts 2 --patches 10 --geodesic-samples 40)
+quick=(--quiet --parts 2 --patches 10 --geodesic-samples 40 --oversegmentations 3)
 
 ranks 2 "$COSEG" run "${quick[@]}" --out "$work/run" "$work/set"
 ranks 2 "$COSEG" assign --quiet --to "$work/run" --out "$work/assigned" "$work/set"
@@ -55,7 +55,7 @@ echo "ok: meshes that vanish"
 mkdir "$work/shares"
 for k in 4 5 6; do peanut "$work/shares/p$k.off" "0.$k"; done
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 4\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' >"$work/shares/t.off"
-ranks 2 "$COSEG" run --quiet --parts 3 --patches 10 --geodesic-samples 40 --out "$work/shared" "$work/shares" 2>"$work/err"
+ranks 2 "$COSEG" run --quiet --parts 3 --patches 10 --geodesic-samples 40 --oversegmentations 3 --out "$work/shared" "$work/shares" 2>"$work/err"
 python3 - "$work/shared" <<'END' || fail "shares of parts without a face"
 import json, sys
 meshes = json.load(open(sys.argv[1] + "/report.json"))["meshes"]

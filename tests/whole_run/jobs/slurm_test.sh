@@ -111,8 +111,8 @@ same() { diff -r "$work/$2/labels" "$work/$1/labels" >/dev/null || fail "$1: oth
 
 mkdir "$work/sub"
 tables 6 "$work/set"
-fast=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 50)
-slow=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 1000)
+fast=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 50 --oversegmentations 3)
+slow=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 1000 --oversegmentations 3)
 for kind in fast slow; do
     declare -n options=$kind
     ranks 2 "$COSEG" run "${options[@]}" --parts 2 --out "$work/$kind" "$work/set/meshes"
@@ -129,7 +129,7 @@ grep -q "^sbatch .*--ntasks=2.*coseg.sbatch run --parts 2 .*$work/set/meshes" "$
 plain=$(sed 's/job \([0-9]*\).*/\1/' "$work/out")
 
 # An array of two shards and the job that depends on it.
-array=$("${submit[@]}" --ntasks=1 --array=0-1 "$jobs/descriptors.sbatch" --state "$work/array.state" --patches 10 --geodesic-samples 50 "$work/set/meshes")
+array=$("${submit[@]}" --ntasks=1 --array=0-1 "$jobs/descriptors.sbatch" --state "$work/array.state" --patches 10 --geodesic-samples 50 --oversegmentations 3 "$work/set/meshes")
 solve=$("${submit[@]}" --ntasks=3 --dependency=afterok:"$array" "$jobs/solve.sbatch" --parts 2 --state "$work/array.state" --out "$work/solved" "${fast[@]}" "$work/set/meshes")
 completes "a plain run" "$plain"
 same plain fast
@@ -164,7 +164,7 @@ grep -q "signal 9" "$work/job-$job.log" || fail "a killed rank: the log gives no
 job=$("${submit[@]}" "$jobs/coseg.sbatch" run "${slow[@]}" --parts 2 --state "$work/killed.state" --out "$work/killed" "$work/set/meshes")
 
 # scaling.sbatch meanwhile.
-scaling=$("${submit[@]}" "$jobs/scaling.sbatch" "$work/scaling" "$work/set/meshes" --parts 2 --no-sheet --no-html --patches 10 --geodesic-samples 50)
+scaling=$("${submit[@]}" "$jobs/scaling.sbatch" "$work/scaling" "$work/set/meshes" --parts 2 --no-sheet --no-html --patches 10 --geodesic-samples 50 --oversegmentations 3)
 completes "handed in again" "$job"
 same killed slow
 echo "ok: a killed rank ends the job with a reason; the next one gives the same bytes"

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 here=$(dirname "${BASH_SOURCE[0]}")
 tables 4 "$work/set"
-options=(--parts 2 --patches 20 --geodesic-samples 100)
+options=(--parts 2 --patches 20 --geodesic-samples 100 --oversegmentations 3)
 "$COSEG" run --quiet --no-html --no-sheet --levels "${options[@]}" --state "$work/state" --out "$work/run" "$work/set/meshes"
 "$COSEG" report "$work/run" >/dev/null 2>&1 || { echo "skipped: built without three.js and Chart.js"; exit 77; }
 

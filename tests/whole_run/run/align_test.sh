@@ -13,7 +13,7 @@ os.makedirs(sys.argv[3])
 for mesh in os.listdir(sys.argv[2]):
     turn_off(os.path.join(sys.argv[2], mesh), os.path.join(sys.argv[3], mesh), random_rotation(mesh))
 END
-common=(--parts 4 --patches 30 --geodesic-samples 100 --no-html)
+common=(--parts 4 --patches 30 --geodesic-samples 100 --oversegmentations 3 --no-html)
 # What is described once serves all runs but that on two ranks.
 ranks 2 "$COSEG" run "${common[@]}" --out "$work/two" "$work/turned" 2>"$work/log"
 "$COSEG" run "${common[@]}" --quiet --state "$work/state" --out "$work/one" "$work/turned"
@@ -76,7 +76,7 @@ grep -q "^| generated_quadruped | 4 | yes |" "$work/table" || fail "the table of
 mkdir "$work/bulbs"
 peanut "$work/bulbs/a.off" 0.6
 awk 'NR > 2 && NF == 3 { print $1, -$2, -$3; next } { print }' "$work/bulbs/a.off" >"$work/bulbs/b.off"
-"$COSEG" run --quiet --no-sheet --no-html --no-keep-model --align off --parts 2 --patches 10 --geodesic-samples 50 --out "$work/pieces" "$work/bulbs"
+"$COSEG" run --quiet --no-sheet --no-html --no-keep-model --align off --parts 2 --patches 10 --geodesic-samples 50 --oversegmentations 3 --out "$work/pieces" "$work/bulbs"
 python3 - "$work" <<'END'
 import json, sys
 work = sys.argv[1]

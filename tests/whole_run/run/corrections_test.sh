@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 tables 4 "$work/set"
-run=("$COSEG" run --quiet --no-html --no-sheet --parts 2 --patches 20 --geodesic-samples 100 --state "$work/state")
+run=("$COSEG" run --quiet --no-html --no-sheet --parts 2 --patches 20 --geodesic-samples 100 --oversegmentations 3 --state "$work/state")
 "${run[@]}" --levels --out "$work/base" "$work/set/meshes"
 
 # A file with no act gives the labels of the run, and tells by its hash which run that is.
@@ -68,7 +68,7 @@ other = labels["table_0000"][7]
 of_patch = [l for f, (l, p) in enumerate(zip(labels["table_0001"], patches["table_0001"])) if p == "19" and not (f <= 40 or f == 60)]
 assert of_patch and other not in of_patch, ("cannot-link", other, set(of_patch))
 END
-ranks 3 "$COSEG" run --quiet --no-html --no-sheet --parts 2 --patches 20 --geodesic-samples 100 --corrections "$work/said.json" \
+ranks 3 "$COSEG" run --quiet --no-html --no-sheet --parts 2 --patches 20 --geodesic-samples 100 --oversegmentations 3 --corrections "$work/said.json" \
     --out "$work/ranks3" "$work/set/meshes"
 diff -r "$work/said/labels" "$work/ranks3/labels" || fail "labels on 1 and on 3 ranks"
 # The folder of results carries the corrections on.

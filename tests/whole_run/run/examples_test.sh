@@ -19,7 +19,7 @@ for path in sorted(glob.glob(work + "/set/truth/*.seg")):
         open(work + "/some/" + name, "w").write("".join(f"{label if f % 3 == 0 else -1}\n" for f, label in enumerate(labels)))
     open(work + "/others/" + name, "w").write("".join(f"{label}\n" for label in labels))
 END
-run=("$COSEG" run --quiet --no-html --no-sheet --patches 20 --geodesic-samples 100 --state "$work/state")
+run=("$COSEG" run --quiet --no-html --no-sheet --patches 20 --geodesic-samples 100 --oversegmentations 3 --state "$work/state")
 # Area with exactly the label of the example, in percent; no assignment of labels.
 agreement() {
     python3 - "$work" "$1" <<'END'
@@ -47,7 +47,7 @@ import sys
 said, found = (open(f"{sys.argv[1]}/{path}/table_0002.seg").read().split() for path in ("some", "by_some/labels"))
 assert all(a in ("-1", b) for a, b in zip(said, found))
 END
-ranks 2 "$COSEG" run --quiet --no-html --no-sheet --patches 20 --geodesic-samples 100 --examples "$work/one" \
+ranks 2 "$COSEG" run --quiet --no-html --no-sheet --patches 20 --geodesic-samples 100 --oversegmentations 3 --examples "$work/one" \
     --out "$work/ranks2" "$work/set/meshes"
 diff -r "$work/by_one/labels" "$work/ranks2/labels" || fail "labels with and without a state folder, on 1 and on 2 ranks"
 # The confidence of a face whose label is given is 1, and the report has the mean of each shape.
@@ -87,7 +87,7 @@ diff -r "$work/levels/levels" "$work/levels2/levels" || fail "levels on 1 and on
 [[ ! -e $work/levels2/levels ]] || fail "levels of an earlier run are left"
 
 # --parts auto: the labels are those of the number that was found, which the report and the log explain.
-"$COSEG" run --no-html --no-sheet --patches 20 --geodesic-samples 100 --parts auto --levels --out "$work/auto" \
+"$COSEG" run --no-html --no-sheet --patches 20 --geodesic-samples 100 --oversegmentations 3 --parts auto --levels --out "$work/auto" \
     "$work/set/meshes" >"$work/auto.log" 2>&1
 found=$(python3 - "$work/auto" <<'END'
 import json, sys

@@ -26,7 +26,7 @@ for path in glob.glob(work + "/set/truth/*.seg"):
     save(work + "/noise/" + name + ".npy", [(noise.random(),) for _ in parts])
     save(work + "/vectors/" + name + ".npy", [(p == 0, p == 1, p == 2) for p in parts])
 END
-common=(--quiet --no-html --no-sheet --parts 2 --patches 20 --geodesic-samples 100)
+common=(--quiet --no-html --no-sheet --parts 2 --patches 20 --geodesic-samples 100 --oversegmentations 3)
 run=("$COSEG" run "${common[@]}")
 accuracy() {
     "$COSEG" score --json --truth "$work/set/truth" --labels "$work/$1/labels" "$work/set/meshes" |

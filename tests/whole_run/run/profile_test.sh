@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 mkdir "$work/set"
 for k in 1 2 3 4; do peanut "$work/set/p$k.off" "0.$((k + 3))"; done
-common=(--patches 10 --geodesic-samples 40 --parts 2 --no-sheet --no-html)
+common=(--patches 10 --geodesic-samples 40 --oversegmentations 3 --parts 2 --no-sheet --no-html)
 
 "$COSEG" run "${common[@]}" --quiet --out "$work/plain" "$work/set"
 [[ ! -e $work/plain/trace.json && ! -e $work/plain/profile.txt ]] || fail "a trace that nobody asked for"

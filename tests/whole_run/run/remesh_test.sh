@@ -49,7 +49,7 @@ accuracy() {
 
 turned_tables "$work/drawn" 0
 turned_tables "$work/fine" 0.03
-common=(--quiet --no-sheet --no-html --parts 3 --geodesic-samples 100)
+common=(--quiet --no-sheet --no-html --parts 3 --geodesic-samples 100 --oversegmentations 3)
 ranks 2 "$COSEG" run "${common[@]}" --out "$work/drawn.auto" "$work/drawn/meshes" 2>"$work/warnings"
 "$COSEG" run "${common[@]}" --out "$work/drawn.one" "$work/drawn/meshes"
 "$COSEG" run "${common[@]}" --remesh never --out "$work/drawn.never" "$work/drawn/meshes"

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 mkdir "$work/set"
 for waist in 0.40 0.45 0.50 0.55 0.60 0.65 0.70; do peanut "$work/set/p$waist.off" $waist; done
-common=(--quiet --patches 8 --geodesic-samples 40 --bins 20 --parts 2 --no-sheet --no-html)
+common=(--quiet --patches 8 --geodesic-samples 40 --oversegmentations 3 --bins 20 --parts 2 --no-sheet --no-html)
 
 "$COSEG" run "${common[@]}" --out "$work/whole" "$work/set"
 for count in 1 2 3; do

@@ -13,7 +13,7 @@ mkdir "$work/kills" "$work/flips"
 tables 6 "$work/kills/shapes"
 tables 4 "$work/flips/shapes"
 timeout --signal=KILL 500 python3 "$COSEG_SOURCE/bench/kills.py" --coseg "$COSEG" --kills 6 --shapes 6 --seed "$seed" --scratch "$work/kills" \
-    --out "$work/kills.json" -- --patches 10 --geodesic-samples 50 || fail "kills.py; its rounds: $(cat "$work/kills.json")"
+    --out "$work/kills.json" -- --patches 10 --geodesic-samples 50 --oversegmentations 3 || fail "kills.py; its rounds: $(cat "$work/kills.json")"
 echo "ok: $(python3 -c 'import json, sys; print(sum(len(r["kills"]) for r in json.load(open(sys.argv[1]))["rounds"]))' "$work/kills.json") kills"
 
 python3 "$COSEG_SOURCE/bench/flips.py" --coseg "$COSEG" --flips 36 --seed "$seed" --scratch "$work/flips" --meshes "$work/flips/shapes/meshes" --out "$work/flips.json" ||

@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 state=$work/state
-options=(--quiet --no-sheet --no-html --geodesic-samples 100)
+options=(--quiet --no-sheet --no-html --geodesic-samples 100 --oversegmentations 3)
 tables 8 "$work/set"
 mkdir "$work/seven"
 cp "$work"/set/meshes/*[0-6].off "$work/seven/"
@@ -100,7 +100,7 @@ refuses "a folder of other things" 4 "is no state folder" \
     ranks 2 "$COSEG" run "${options[@]}" --parts 2 --state "$work/set" --out "$work/refused" "$work/seven"
 
 # ends_on SIGNAL CODE : a run that is sent SIGNAL as soon as the first description is kept ends with CODE, and its state is used.
-slow=(--quiet --no-sheet --no-html --parts 2 --patches 20 --geodesic-samples 400)
+slow=(--quiet --no-sheet --no-html --parts 2 --patches 20 --geodesic-samples 400 --oversegmentations 3)
 "$COSEG" run --ranks 1 "${slow[@]}" --out "$work/slow" "$work/seven"
 ends_on() {
     local signal=$1 code=$2 status=0 folder=$work/state.$1
@@ -153,7 +153,7 @@ if mount -t tmpfs -o size=400k tmpfs "$small" 2>/dev/null; then
     for scope in meshes rows; do
         mount -o remount,rw,size=100m "$small"
         rm -rf "$small/state"
-        ranks 1 "$COSEG" describe --quiet --geodesic-samples 100 --patches 20 --state "$small/state" "$work/seven"
+        ranks 1 "$COSEG" describe --quiet --geodesic-samples 100 --oversegmentations 3 --patches 20 --state "$small/state" "$work/seven"
         mount -o "remount,size=$(($(du --block-size=1k --summarize "$small" | cut -f1) + 4))k" "$small"
         refuses "a disk full after the descriptions, scope $scope" 4 "No space left on device" ranks 2 "$COSEG" run "${options[@]}" --parts 2 \
             --patches 20 --scope "$scope" --checkpoint-seconds 0 --state "$small/state" --out "$work/refused" "$work/seven"
