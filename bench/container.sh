@@ -41,6 +41,6 @@ step "podman build -t coseg ." build_image
 container=$(images from --pull-never localhost/coseg)
 step "coseg generate" inside coseg generate chair --count 4 --faces 2000 --out /data/chairs
 step "coseg run on 2 ranks" inside mpirun -n 2 coseg run --parts 4 --out /data/result /data/chairs/meshes
-step "the Python module" inside python3 -c "import coseg; print(len(coseg.segment(coseg.generate('table', 4), 2).shapes))"
+step "the Python module" inside python3 -c "import coseg; print(len(coseg.segment([(s.vertices, s.faces) for s in coseg.generate('table', 4)], 2).labels))"
 echo "$(find "$work/data/result/labels" -name '*.seg' | wc -l) label files of $(find "$work/data/chairs/meshes" -type f | wc -l) meshes"
 images images
