@@ -25,6 +25,8 @@ import tempfile
 import threading
 import time
 
+from run_words import parsed_with_options
+
 TICK = os.sysconf("SC_CLK_TCK")
 LOOK_SECONDS = 0.25
 
@@ -207,9 +209,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, help="JSON")
     parser.add_argument("--table", type=pathlib.Path, help="Markdown; standard output without it")
     parser.add_argument("--verbose", action="store_true", help="each stage as it ends, on standard error")
-    split = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
-    options = parser.parse_args(sys.argv[1:split])
-    options.run_options = sys.argv[split + 1 :]
+    options, options.run_options = parsed_with_options(parser)
     options.coseg = options.coseg.resolve()
     with tempfile.TemporaryDirectory() as gone:
         scratch = options.scratch or pathlib.Path(gone)

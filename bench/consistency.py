@@ -35,6 +35,7 @@ import scipy.sparse
 import scipy.spatial
 
 from accuracy import markdown, write_whole
+from run_words import parsed_with_options
 
 PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEAR = (0.02, 0.05)
@@ -221,10 +222,7 @@ def main():
     parser.add_argument("--state", help="state folder of the runs, kept; else one that is removed at the end")
     parser.add_argument("--landmarks", action="store_true")
     parser.add_argument("--table")
-    words = sys.argv[1:]
-    split = words.index("--") if "--" in words else len(words)
-    arguments = parser.parse_args(words[:split])
-    arguments.options = words[split + 1:]
+    arguments, arguments.options = parsed_with_options(parser)
     names = sorted(file[:-4] for file in os.listdir(arguments.folder) if file.endswith(".off"))
     if len(names) < 2:
         sys.exit(f"consistency: fewer than two OFF files in {arguments.folder}")

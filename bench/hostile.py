@@ -32,6 +32,8 @@ import sys
 import tempfile
 import time
 
+from run_words import parsed_with_options
+
 
 class Mesh:
     def __init__(self, points=(), faces=()):
@@ -347,10 +349,7 @@ def main():
     parser.add_argument("--keep", help="folder for the meshes to blame")
     parser.add_argument("--out")
     parser.add_argument("--scratch")
-    words = sys.argv[1:]
-    behind = words.index("--") if "--" in words else len(words)
-    args = parser.parse_args(words[:behind])
-    args.options = words[behind + 1:]
+    args, args.options = parsed_with_options(parser)
     faces = ["--faces", str(args.healthy_faces)] if args.healthy_faces else []
     args.coseg = os.path.abspath(args.coseg)
     rows, failed = [], 0

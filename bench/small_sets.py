@@ -22,6 +22,7 @@ import tempfile
 
 from accuracy import find_sets, generated_sets
 from examples import score
+from run_words import parsed_with_options
 
 PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 MOST_BELOW = 5.0
@@ -46,9 +47,10 @@ def measure_samples(arguments):
     """Prints a row of each set and size; returns all rows."""
     rows = ["| set (K) | shapes | mean | lowest | samples |", "| --- | --- | --- | --- | --- |"]
     print("\n".join(rows), flush=True)
+    sets = find_sets(arguments.data, arguments.sets)
     for size in arguments.sizes:
         means = []
-        for name, one_set in find_sets(arguments.data, arguments.sets).items():
+        for name, one_set in sets.items():
             with tempfile.TemporaryDirectory() as work:
                 figures = [accuracy(arguments, sample_of(one_set, size, seed), seed, work + "/out") for seed in range(1, arguments.seeds + 1)]
             means.append(statistics.mean(figures))
@@ -92,10 +94,7 @@ def main():
     parser.add_argument("--faces", type=int, default=5000)
     parser.add_argument("--table")
     parser.add_argument("--details")
-    words = sys.argv[1:]
-    given = words.index("--") if "--" in words else len(words)
-    arguments = parser.parse_args(words[:given])
-    arguments.options = words[given + 1:]
+    arguments, arguments.options = parsed_with_options(parser)
     os.environ["COSEG_RANKS"] = str(arguments.ranks)
     rows, unstable = (measure_samples(arguments), 0) if arguments.data else measure_families(arguments)
     if arguments.table:
