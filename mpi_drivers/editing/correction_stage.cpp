@@ -42,8 +42,9 @@ std::vector<OptionValue> with_corrected_parts(std::vector<OptionValue> values, i
     if (row == values.end()) throw Error(ExitCode::internal, "a run has no option of parts");
     OptionValue asked = *row;
     asked.key = base_parts_key;
+    row->value = std::to_string(parts);
     values.push_back(asked);
-    return with_part_number(std::move(values), parts);
+    return values;
 }
 
 void refuse_other_run(const Comm& comm, const CorrectionBase& base, const std::string& hash,

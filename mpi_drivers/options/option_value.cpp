@@ -11,11 +11,4 @@ std::string option_text(const std::vector<OptionValue>& values, Affects last) {
     return text;
 }
 
-std::vector<OptionValue> with_part_number(std::vector<OptionValue> values, int parts) {
-    for (OptionValue& option : values) {
-        if (option.key == "parts") option.value = std::to_string(parts);
-    }
-    return values;
-}
-
 }  // namespace coseg

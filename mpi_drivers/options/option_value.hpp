@@ -51,7 +51,4 @@ struct OptionValue {
 /// state folder is made from this text.
 std::string option_text(const std::vector<OptionValue>& values, Affects last);
 
-/// The options of a run with another number of parts.
-std::vector<OptionValue> with_part_number(std::vector<OptionValue> values, int parts);
-
 }  // namespace coseg
