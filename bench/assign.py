@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """What `coseg assign` loses and saves against solving the whole collection again.
 
-usage: assign.py --coseg build/bin/coseg FOLDER ... [--leave 4] [--seeds 1] [--ranks 2] [--out assign.json]
+usage: assign.py --coseg build/bin/coseg FOLDER ... [--leave 4] [--turned] [--seeds 1] [--ranks 2] [--out assign.json]
 
 A FOLDER holds meshes and a NAME.seg of truth for each (or meshes/ and truth/, as `coseg generate` writes them); K is the
-number of truth labels. Every (M / leave)-th shape is left out, the rest is run, the ones left out are assigned to that run.
+number of truth labels. Every (M / leave)-th shape is left out, the rest is run, the ones left out are assigned to that run;
+with --turned (OFF files alone) they are turned at random before they are assigned.
 Prints a table: one-to-one accuracy, in percent, of the shapes left out, as `coseg score` has it over all shapes (labels of
 the rest and of those assigned together, against labels of a full run), and the seconds of the assignment beside those of
 the full run (wall time of both, descriptions included; CPU seconds of all ranks in brackets).
@@ -17,7 +18,7 @@ import shutil
 import tempfile
 import time
 
-from accuracy import command_output, mean_and_deviation, truth_labels
+from accuracy import command_output, mean_and_deviation, random_rotation, truth_labels, turn_off
 from links import meshes_and_truth
 
 
@@ -39,6 +40,14 @@ def accuracies(args, truth, labels, meshes):
     return score["per_shape"]
 
 
+def turned(meshes, names, folder):
+    """Copies of the meshes, turned at random, in `folder`."""
+    os.mkdir(folder)
+    for name in names:
+        turn_off(os.path.join(meshes, name), os.path.join(folder, name), random_rotation(name))
+    return folder
+
+
 def measure(args, folder, seed):
     meshes, truth = meshes_and_truth(folder)
     names = mesh_names(meshes)
@@ -47,17 +56,18 @@ def measure(args, folder, seed):
     start = ["mpirun", "--oversubscribe", "-n", str(args.ranks), args.coseg]
     quiet = ["--quiet", "--no-sheet", "--no-html"]
     with tempfile.TemporaryDirectory() as scratch:
-        def listed(name, chosen):
+        def listed(name, chosen, folder=meshes):
             path = os.path.join(scratch, name)
             with open(path, "w") as text:
-                text.writelines(os.path.abspath(os.path.join(meshes, mesh)) + "\n" for mesh in chosen)
+                text.writelines(os.path.abspath(os.path.join(folder, mesh)) + "\n" for mesh in chosen)
             return "@" + path
         def out(name):
             return os.path.join(scratch, name)
         run = ["run", "--seed", str(seed), "--parts", str(truth_labels(truth))] + quiet
         full = timed(start + run + ["--out", out("full"), meshes])
         command_output(start + run + ["--out", out("rest"), listed("rest.txt", [n for n in names if n not in left])])
-        new = timed(start + ["assign", "--to", out("rest"), "--out", out("new"), listed("left.txt", left)] + quiet)
+        added = turned(meshes, left, out("turned")) if args.turned else meshes
+        new = timed(start + ["assign", "--to", out("rest"), "--out", out("new"), listed("left.txt", left, added)] + quiet)
         for label in os.listdir(out("new") + "/labels"):
             shutil.copy(out("new") + "/labels/" + label, out("rest") + "/labels/" + label)
         of_full = accuracies(args, truth, out("full") + "/labels", meshes)
@@ -78,6 +88,7 @@ def main():
     parser.add_argument("folders", nargs="+")
     parser.add_argument("--coseg", required=True)
     parser.add_argument("--leave", type=int, default=4)
+    parser.add_argument("--turned", action="store_true")
     parser.add_argument("--seeds", nargs="+", type=int, default=[1])
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--out", default="assign.json")

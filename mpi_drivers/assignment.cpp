@@ -9,6 +9,7 @@
 #include "mpi_drivers/options/named_options.hpp"
 #include "mpi_drivers/partition/example_stage.hpp"
 #include "mpi_drivers/process/checked_petsc.hpp"
+#include "mpi_drivers/results/alignment_output.hpp"
 #include "mpi_drivers/results/run_folders.hpp"
 #include "mpi_drivers/results/run_results.hpp"
 
@@ -59,13 +60,16 @@ AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, c
                              labels,
                              partition.parts,
                              values,
-                             state_summary(comm, folders.state(), nullptr, collection)};
+                             state_summary(comm, folders.state(), nullptr, collection),
+                             &assigned.alignment};
     std::string report = folders.keeps_results()
                              ? write_results(comm, folders.results(), outcome, output, log)
                              : run_report(comm, outcome, log);
+    AlignmentFile in_file_units;
+    if (entries != nullptr) in_file_units = alignment_in_file_units(comm, collection, assigned.alignment);
     folders.commit(comm);
-    return {std::move(collection), std::move(assigned), std::move(labels), partition.parts,
-            std::move(report)};
+    return {std::move(collection), std::move(assigned), std::move(labels),
+            partition.parts,       std::move(report),   std::move(in_file_units)};
 }
 
 }  // namespace coseg

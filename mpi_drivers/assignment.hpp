@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/data_files/alignment_file.hpp"
 #include "mpi_drivers/options/run_options.hpp"
 #include "mpi_drivers/partition/assign_stage.hpp"
 #include "mpi_drivers/partition/run_model.hpp"
@@ -19,7 +20,8 @@ struct AssignedLabels {
     Assigned assigned;
     std::vector<MeshLabels> labels;
     int parts = 0;
-    std::string report;  ///< the text of report.json, on rank 0
+    std::string report;       ///< the text of report.json, on rank 0
+    AlignmentFile alignment;  ///< of `entries`, on all ranks
 };
 
 /// Labels the meshes `entries`, or where this is null own.process.inputs, by a model, which messages call

@@ -71,7 +71,7 @@ PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entri
         {optimise, partition, examples.patches, checkpoints.tiles(), checkpoints.cuts()}, log);
     if (keeps_features)
         kept.positions = turned_positions(alignment, kept.positions, collection.numbering.mesh_of());
-    if (!alignment.applied()) model.places.frame = cut.frame;
+    if (output.keep_model) model = in_frame(std::move(model), collection, alignment, cut.frame);
     checkpoints.warn_of_damage(log);
     folders.end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
     RunOptions counted = options;

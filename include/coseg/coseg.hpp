@@ -123,7 +123,7 @@ struct Segmentation {
     std::vector<std::string> warnings;   ///< of the whole call, one sentence each
     std::string report;                  ///< JSON, as in report.json (docs/formats.md)
     std::shared_ptr<const Model> model;  ///< of segment() alone, where SegmentOptions::keep_model is set
-    Alignment alignment;                 ///< of segment() alone; without shapes otherwise
+    Alignment alignment;                 ///< of assign(): to stand like the shapes of the run
 };
 
 /// As SegmentOptions::parts: 2 to 12, found from the shapes, as by --parts auto.

@@ -165,6 +165,7 @@ Segmentation assigned(LibraryCall& library, std::span<const Shape> given, const 
     broadcast(comm, result.report);
     result.shapes = in_order(shapes, done.collection,
                              all_labels(comm, std::move(done.labels), done.collection.meshes.size()));
+    add_alignment(shapes, done.alignment, result);
     return result;
 }
 

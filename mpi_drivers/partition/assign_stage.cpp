@@ -44,9 +44,10 @@ struct PartsOfMesh {
     int mesh = 0;
     std::vector<int> parts;
     std::vector<GlobalPatchNeighbors> neighbors;  ///< of its patches 0, 1, ...
+    ShapePose pose;
     static constexpr auto fields() {
         return std::tuple(field("mesh", &PartsOfMesh::mesh), field("parts", &PartsOfMesh::parts),
-                          field("neighbors", &PartsOfMesh::neighbors));
+                          field("neighbors", &PartsOfMesh::neighbors), field("pose", &PartsOfMesh::pose));
     }
 };
 
@@ -55,7 +56,7 @@ std::vector<PartsOfMesh> gather_parts(const Comm& comm, const Collection& collec
                                       const std::vector<MeshOutcome>& outcomes) {
     std::vector<PartsOfMesh> local;
     for (const MeshOutcome& outcome : outcomes)
-        local.push_back({outcome.figures.mesh, outcome.parts.parts, {}});
+        local.push_back({outcome.figures.mesh, outcome.parts.parts, {}, outcome.figures.pose.pose});
     auto next = local.begin();  // both ascend
     for (const MeshDescription& mesh : collection.local) {
         if (next != local.end() && next->mesh == mesh.mesh) (next++)->neighbors = neighbors_of(mesh, 0);
@@ -87,7 +88,8 @@ RunModel with_meshes(RunModel model, const AssignInput& input, const std::vector
         const auto areas = input.features.patch_area.begin() + first;
         model.places.area.insert(model.places.area.end(), areas, areas + count);
         model.places.positions.conservativeResize(Eigen::NoChange, known + count);
-        model.places.positions.rightCols(count) = input.features.positions.middleCols(first, count);
+        model.places.positions.rightCols(count) =
+            turned_positions(mesh.pose, input.features.positions.middleCols(first, count));
         model.mesh_of.insert(model.mesh_of.end(), mesh.parts.size(), number);
         model.mesh_names.push_back(input.collection.meshes[at(mesh.mesh)].name);
         model.part_of_patch.insert(model.part_of_patch.end(), mesh.parts.begin(), mesh.parts.end());
@@ -171,6 +173,24 @@ std::vector<AssignedMesh> gather_figures(const Comm& comm, const std::vector<Mes
     return meshes;
 }
 
+/// What was turned to stand like the run's shapes.
+ShapeAlignment alignment_of(const std::vector<AssignedMesh>& meshes) {
+    const auto count = static_cast<double>(meshes.size());
+    ShapeAlignment alignment;
+    std::ptrdiff_t turned = 0;
+    for (const AssignedMesh& mesh : meshes) {
+        alignment.shapes.push_back(mesh.pose.pose);
+        alignment.agreement_before += mesh.pose.agreement_in_file / count;
+        alignment.agreement_after += mesh.pose.pose.agreement / count;
+        turned += mesh.pose.pose.is_turned() ? 1 : 0;
+    }
+    alignment.standing_share = 1.0 - static_cast<double>(turned) / count;
+    alignment.reason = std::to_string(turned) + " of " + std::to_string(meshes.size()) +
+                       " turned to stand like the run's shapes";
+    if (turned == 0) alignment.shapes.clear();
+    return alignment;
+}
+
 }  // namespace
 
 Assigned assign_parts(const Comm& comm, const AssignInput& input, const OptimiseOptions& options,
@@ -182,6 +202,7 @@ Assigned assign_parts(const Comm& comm, const AssignInput& input, const Optimise
     const std::vector<AssignedMesh> figures = gather_figures(comm, outcomes);
     Assigned assigned;
     assigned.cut = joined_parts(comm, input.collection, outcomes, input.model.options.partition.parts);
+    assigned.alignment = alignment_of(figures);
     Optimisation& optimisation = assigned.optimisation;
     static_cast<SolveSummary&>(optimisation.result) = summed(figures);
     optimisation.variant = to_string(SubspaceVariant::multi_feature);

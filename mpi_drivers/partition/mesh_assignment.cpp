@@ -7,6 +7,7 @@
 #include "mpi_drivers/optimise/optimise_stage.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
 #include "solvers/affinity/affinity.hpp"
+#include "solvers/alignment/shape_alignment.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
@@ -84,6 +85,27 @@ AddedMesh added_mesh(const AssignInput& input, const KnownMeshes& known, const M
     return added;
 }
 
+/// The links of the new patches, which are those from number model.mesh_of.size() on, to the run's, by area.
+LinkedPoints linked_points(const RunModel& model, const SparseRows& links, const std::vector<double>& area,
+                           const Eigen::Matrix3Xd& own) {
+    const std::size_t patches = model.mesh_of.size();
+    const auto first = at(links.offsets[patches]);
+    const auto count = std::ssize(links.values) - static_cast<std::ptrdiff_t>(first);
+    LinkedPoints points{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count), Eigen::VectorXd(count)};
+    Eigen::Index next = 0;
+    for (Eigen::Index i = 0; i < own.cols(); ++i) {
+        const std::size_t row = patches + at(i);
+        for (auto k = at(links.offsets[row]); k < at(links.offsets[row + 1]); ++k, ++next) {
+            points.own.col(next) = own.col(i);
+            points.other.col(next) = model.places.positions.col(links.columns[k]);
+            points.weight[next] = area[row] * links.values[k];
+        }
+    }
+    const double total = points.weight.sum();
+    if (total > 0.0) points.weight /= total;
+    return points;
+}
+
 /// The run's patches, and then those of the new mesh.
 Eigen::Matrix3Xf joined_positions(const RunModel& model, const Eigen::Matrix3Xd& own) {
     Eigen::Matrix3Xf positions(3, model.places.positions.cols() + own.cols());
@@ -119,8 +141,8 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Ass
         .gap = options.gap, .max_iterations = options.max_iterations, .max_seconds = options.max_seconds};
     const SolveResult result = solve_subspace(self, problem, solve);
     MeshOutcome outcome;
-    outcome.figures = {mesh.mesh, own_share(result, input.features, first, count),
-                       allowed_pair_count(problem)};
+    outcome.figures = {
+        mesh.mesh, own_share(result, input.features, first, count), allowed_pair_count(problem), {}};
     AddedMesh added = added_mesh(input, known, mesh, first, count);
     added.links = normalized_links(self, result.coefficients);
     if (added.links.values.empty()) {
@@ -128,7 +150,13 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Ass
                                          ": it has nothing in common with the run's shapes; leave it out");
     }
     const SinglePrecisionFeatures features(self, problem.features);
-    const Eigen::Matrix3Xd own_positions = input.features.positions.middleCols(first, count);
+    AddedPose& pose = outcome.figures.pose;
+    const Eigen::Matrix3Xd as_in_file = input.features.positions.middleCols(first, count);
+    pose.pose.found = true;
+    if (places_count(known.model))
+        pose = added_pose(linked_points(known.model, added.links, added.patch_area, as_in_file),
+                          known.model.places.shapes, mesh.key);
+    const Eigen::Matrix3Xd own_positions = turned_positions(pose.pose, as_in_file);
     const Eigen::Matrix3Xf positions = joined_positions(known.model, own_positions);
     const std::vector<ChoiceDescriptor> descriptors = choice_descriptors(features, positions, known.weights);
     added.descriptors = descriptors;

@@ -8,6 +8,7 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/stage_options.hpp"
 #include "mpi_drivers/partition/run_model.hpp"
+#include "solvers/alignment/added_pose.hpp"
 #include "solvers/partition/added_mesh.hpp"
 #include "solvers/partition/part_regression.hpp"
 #include "solvers/subspace/solve_result.hpp"
@@ -39,9 +40,11 @@ struct AssignedMesh {
     int mesh = 0;
     SolveSummary solution;
     std::int64_t allowed_pairs = 0;
+    AddedPose pose;  ///< by which it stands like the run's shapes
     static constexpr auto fields() {
         return std::tuple(field("mesh", &AssignedMesh::mesh), field("solution", &AssignedMesh::solution),
-                          field("allowed_pairs", &AssignedMesh::allowed_pairs));
+                          field("allowed_pairs", &AssignedMesh::allowed_pairs),
+                          field("pose", &AssignedMesh::pose));
     }
 };
 
@@ -51,9 +54,9 @@ struct MeshOutcome {
     AssignedMesh figures;
 };
 
-/// Solves the mesh with the patches of `known` as rows of the problem of mesh scope, and gives it parts by
-/// added_parts. `self` is of one rank. Throws Error: input where the mesh has nothing in common with the run,
-/// not_converged where a limit ends the solve.
+/// Solves the mesh with the patches of `known` as rows of the problem of mesh scope, turns it to stand like
+/// the run's shapes, and gives it parts by added_parts. `self` is of one rank. Throws Error: input where the
+/// mesh has nothing in common with the run, not_converged where a limit ends the solve.
 MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const AssignInput& input,
                         const KnownMeshes& known, const OptimiseOptions& options);
 

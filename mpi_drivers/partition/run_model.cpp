@@ -12,6 +12,7 @@
 #include "io/folders/finished_run.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
+#include "solvers/alignment/shape_alignment.hpp"
 #include "solvers/subspace/mesh_links.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -161,7 +162,7 @@ bool places_fit(const PatchPlaces& places, std::size_t patches) {
     return places.area.size() == patches && at(places.positions.cols()) == patches &&
            std::all_of(places.area.begin(), places.area.end(), is_area) && places.positions.allFinite() &&
            places.frame.mean.allFinite() && places.frame.directions.allFinite() &&
-           places.frame.correlation.allFinite() &&
+           places.frame.correlation.allFinite() && std::isfinite(places.shapes.agreement) &&
            std::all_of(
                places.neighbors.begin(), places.neighbors.end(), [&](const GlobalPatchNeighbors& pair) {
                    return is_patch(pair.patch_a) && is_patch(pair.patch_b) && pair.boundary_length >= 0.0;
@@ -295,6 +296,19 @@ ModelPatches model_patches(const Comm& comm, const Collection& collection, const
     patches.places.positions = features.positions(Eigen::all, patches.columns);
     for (std::size_t h = 0; h < features.histograms.size(); ++h)
         patches.histograms.emplace_back(features.histograms[h](Eigen::all, patches.columns).cast<float>());
+    return patches;
+}
+
+ModelPatches in_frame(ModelPatches patches, const Collection& collection, const ShapeAlignment& alignment,
+                      const PositionFrame& frame) {
+    const std::vector<int> mesh_of = collection.numbering.mesh_of();
+    std::vector<int> mesh_of_kept;
+    for (const int p : patches.columns) mesh_of_kept.push_back(mesh_of[at(p)]);
+    PatchPlaces& places = patches.places;
+    if (places.positions.cols() > 0)
+        places.positions = turned_positions(alignment, places.positions, mesh_of_kept);
+    places.frame = frame;
+    places.shapes = frame_of_shapes(alignment);
     return patches;
 }
 

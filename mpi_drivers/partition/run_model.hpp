@@ -9,6 +9,7 @@
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/run_options.hpp"
 #include "solvers/affinity/global_patch_pairs.hpp"
+#include "solvers/alignment/added_pose.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/parallel/stage_log.hpp"
 #include "src/records/position_frame.hpp"
@@ -17,19 +18,19 @@ namespace coseg {
 
 inline constexpr const char* model_file = "model.h5";
 inline constexpr const char* model_format = "coseg model";
-inline constexpr int model_version = 3;
+inline constexpr int model_version = 4;
 
 /// How the patches of a model lie, apart from their features.
 struct PatchPlaces {
     std::vector<double> area;                     ///< of each patch
-    Eigen::Matrix3Xd positions;                   ///< as in PatchFeatures, as the meshes stand in their files
+    Eigen::Matrix3Xd positions;                   ///< as in PatchFeatures, turned as the run has turned them
     std::vector<GlobalPatchNeighbors> neighbors;  ///< numbers as in the model
-    /// Of these positions; without correlation where the meshes do not stand alike in their files, or places
-    /// did not count.
-    PositionFrame frame;
+    PositionFrame frame;   ///< of these positions; without correlation where places did not count
+    FrameOfShapes shapes;  ///< how a new shape is turned to stand like the run's
     static constexpr auto fields() {
         return std::tuple(field("area", &PatchPlaces::area), field("positions", &PatchPlaces::positions),
-                          field("neighbors", &PatchPlaces::neighbors), field("frame", &PatchPlaces::frame));
+                          field("neighbors", &PatchPlaces::neighbors), field("frame", &PatchPlaces::frame),
+                          field("shapes", &PatchPlaces::shapes));
     }
 };
 
@@ -55,11 +56,15 @@ struct ModelPatches {
     std::vector<int> meshes;                  ///< of the collection, ascending
     std::vector<int> columns;                 ///< their patches, ascending
     std::vector<Eigen::MatrixXf> histograms;  ///< as in PatchFeatures, of these patches
-    PatchPlaces places;                       ///< without a frame
+    PatchPlaces places;                       ///< as the meshes stand in their files, without a frame
 };
 /// On rank 0, or on all ranks; nothing on the others. Collective.
 ModelPatches model_patches(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                            std::uint64_t seed, bool on_all_ranks);
+
+/// The patches where the run has turned their meshes to, with the frame of the positions there.
+ModelPatches in_frame(ModelPatches patches, const Collection& collection, const ShapeAlignment& alignment,
+                      const PositionFrame& frame);
 
 /// The model that read_run_model gives of what write_run_model writes of the same. Serial.
 RunModel run_model(const Collection& collection, const ModelPatches& patches,

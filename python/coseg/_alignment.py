@@ -71,7 +71,7 @@ class Alignment:
 
 
 def alignment_of(raw: Optional[Dict[str, Any]], set_aside: List[bool]) -> Optional[Alignment]:
-    """Of what the library or alignment.json says; nothing for an assignment, which aligns nothing."""
+    """Of what the library or alignment.json says; nothing where that is nothing."""
     if raw is None:
         return None
     shapes = raw["shapes"]

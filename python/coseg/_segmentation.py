@@ -36,8 +36,8 @@ class Result:
         warnings: sentences about the run and about shapes.
         set_aside: index of a shape -> why it could not be used (only with strict=False).
         folder: where the results lie as files, or None.
-        alignment: how each shape is turned, scaled and moved to stand like the others; None from assign() and
-            from folders of runs that have no alignment.json.
+        alignment: how each shape is turned, scaled and moved to stand like the others, of assign() like
+            the shapes of the run; None from folders of runs that have no alignment.json.
     """
 
     parts: int

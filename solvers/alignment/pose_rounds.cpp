@@ -19,7 +19,6 @@ namespace {
 constexpr int hashed_starts = 24;
 constexpr int tried_turns = 40;  ///< beside those by right angles
 constexpr double as_good = 0.9;
-constexpr double outlier_gain = 2.0;
 constexpr double certain_of_median = 0.8;
 constexpr double enough_of_links = 1.0 / 3.0;
 constexpr double enough_gain = 0.05;  ///< of the likelihood of places, like the next one
@@ -254,7 +253,7 @@ ShapePose PoseRounds::turned_outlier(int mesh, const LinkedPoints& points, doubl
 }
 
 void PoseRounds::turn_outliers() {
-    const double enough = enough_of_median * median_agreement(poses_);
+    const double enough = enough_of_others * median_agreement(poses_);
     round([&](int mesh, const std::vector<PatchLink>& links) {
         return links.empty() ? poses_[at(mesh)] : turned_outlier(mesh, points_of(links), enough);
     });

@@ -18,8 +18,6 @@ namespace coseg {
 
 /// The median of the agreements, of two in the middle the larger. At least one pose.
 double median_agreement(const std::vector<ShapePose>& poses);
-/// Below this share of the median agreement the links of a shape say nothing of how it stands.
-inline constexpr double enough_of_median = 0.5;
 
 /// From where else than its own pose a shape is fitted.
 enum class FitStarts {

@@ -20,7 +20,6 @@ namespace coseg {
 namespace {
 
 constexpr double enough_standing = 0.5;  ///< share of the shapes
-constexpr double clearly_better = 7.0 / 6.0;
 constexpr int turning_rounds = 4;
 constexpr int freed_rounds = 2;  ///< for shapes that followed a doubtful one
 constexpr int settling_rounds = 2;
@@ -97,7 +96,7 @@ ShapeAlignment outliers_turned(PoseRounds& rounds, ShapeAlignment alignment) {
 /// Whose links agree much less than those of others stands by chance: a chair without a back is put on its
 /// head if its one foot is linked with backs.
 void doubt_where_links_agree_little(std::vector<ShapePose>& poses) {
-    const double enough = enough_of_median * median_agreement(poses);
+    const double enough = enough_of_others * median_agreement(poses);
     for (ShapePose& pose : poses) pose.found = pose.found && pose.agreement >= enough;
 }
 
@@ -115,7 +114,7 @@ ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input) {
     alignment.standing_share = rounds.standing_share();
     alignment.agreement_before = mean_agreement(rounds.poses());
     if (!(alignment.agreement_before > 0.0)) return without_poses(alignment, "no shape has links to others");
-    if (alignment.standing_share >= enough_standing) return outliers_turned(rounds, std::move(alignment));
+    if (shapes_stand_alike(alignment)) return outliers_turned(rounds, std::move(alignment));
     rounds.set(best_beginning(rounds));
     for (int round = 0; round < turning_rounds; ++round) rounds.fit(FitStarts::hashed);
     for (int round = 0; round < 2; ++round) rounds.reflect(clearly_better);
@@ -133,6 +132,15 @@ ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input) {
     doubt_where_links_agree_little(alignment.shapes);
     alignment.reason = agreement_text(alignment);
     return alignment;
+}
+
+bool shapes_stand_alike(const ShapeAlignment& alignment) {
+    return alignment.standing_share >= enough_standing;
+}
+
+Eigen::Matrix3Xd turned_positions(const ShapePose& pose, const Eigen::Matrix3Xd& positions) {
+    if (!pose.found) return Eigen::Matrix3Xd::Zero(3, positions.cols());
+    return pose.rotation * positions;
 }
 
 Eigen::Matrix3Xd turned_positions(const ShapeAlignment& alignment, const Eigen::Matrix3Xd& positions,

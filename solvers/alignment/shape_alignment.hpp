@@ -20,6 +20,13 @@ struct AlignmentInput {
     std::uint64_t seed = 1;
 };
 
+/// How much better links agree, as a ratio, where a shape is mirrored or all are turned.
+inline constexpr double clearly_better = 7.0 / 6.0;
+/// Likewise where a single shape is turned among others that stand alike.
+inline constexpr double outlier_gain = 2.0;
+/// Below this share of the agreement that others have, the links of a shape say nothing of how it stands.
+inline constexpr double enough_of_others = 0.5;
+
 /// The pose of every shape in a frame in which linked patches lie as near to each other as can be.
 ///
 /// A shape stands like the others where its links agree as well (to .9) as it stands in its file as in the
@@ -47,6 +54,12 @@ struct AlignmentInput {
 /// least squares with the weights of Dennis and Welsch 1978.
 /// Deviates: this is not in the paper, which draws shapes as they stand in their files.
 ShapeAlignment align_shapes(const Comm& comm, const AlignmentInput& input);
+
+/// Whether most shapes stand alike in their files, so that only outliers are turned.
+bool shapes_stand_alike(const ShapeAlignment& alignment);
+
+/// The positions of the patches of one shape, 3 x n, turned as its pose says; see the next.
+Eigen::Matrix3Xd turned_positions(const ShapePose& pose, const Eigen::Matrix3Xd& positions);
 
 /// The positions of all patches, each turned as the pose of its shape says; without scale and translation, so
 /// that they keep the centre and the unit of patch_positions. Patches of a shape that is not found are all at

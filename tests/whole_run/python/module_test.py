@@ -312,7 +312,9 @@ def test_alignment(run, tables):
     placed = called.apply(3, tables[0].vertices)
     assert np.allclose(placed, tables[0].vertices @ called.matrices[3, :3, :3].T + called.matrices[3, :3, 3])
     assert np.abs(placed.mean(axis=0)).max() < 0.6 and 0.7 < placed.std() < 1.4
-    assert coseg.assign(tables[:2], str(run[0])).alignment is None
+    added = coseg.assign(tables[:2], str(run[0])).alignment
+    assert not added.aligned and np.array_equal(added.rotations, np.tile(np.eye(3), (2, 1, 1)))
+    assert "run's shapes" in added.reason
     shapes = len(tables)
     for shape in (shapes, -1, 10 ** 30):
         with pytest.raises(coseg.UsageError, match=f"shape: {shape} is not in 0 .. {shapes - 1}"):

@@ -98,5 +98,34 @@ END
 "$COSEG" export --to obj --instances --out "$work/in_frame" "$work/pieces" >/dev/null
 cmp -s "$work/in_files/instances/a.seg" "$work/in_files/instances/b.seg" && fail "a shape upside down has the same numbers as it stands"
 cmp "$work/in_frame/instances/a.seg" "$work/in_frame/instances/b.seg" || fail "numbers do not follow the alignment"
+# New shapes are turned to stand like those of the run, and those that stand like them stay as they are.
+new=("$work/turned/quadruped_0001.off" "$work/turned/quadruped_0004.off")
+for count in 1 2; do
+    ranks $count "$COSEG" assign --to "$work/upright" --quiet --no-html --out "$work/new$count" "${new[@]}"
+done
+diff -r "$work/new1/labels" "$work/new2/labels" || fail "labels of turned new shapes differ between 1 and 2 ranks"
+cmp "$work/new1/alignment.json" "$work/new2/alignment.json" || fail "the poses of new shapes differ between 1 and 2 ranks"
+"$COSEG" assign --to "$work/upright" --quiet --no-html --no-sheet --out "$work/standing" "${new[@]/turned/set/meshes}"
+"$COSEG" assign --to "$work/upright_off" --quiet --no-html --no-sheet --out "$work/never" "${new[@]}"
+python3 - "$COSEG_SOURCE/bench" "$work" <<'END' || fail "new shapes do not stand like the run's"
+import json, sys
+sys.path.insert(0, sys.argv[1])
+from accuracy import random_rotation
+from alignment import angle, product
+work = sys.argv[2]
+read = lambda run: json.load(open(f"{work}/{run}/alignment.json"))
+new = read("new1")
+assert new["aligned"] and new["agreement_after"] > 2 * new["agreement_before"], new
+for s in new["shapes"]:
+    together = product(s["rotation"], random_rotation(s["name"] + ".off"))
+    assert s["found"] and angle(together, [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) < 12, (s["name"], together)
+assert not read("standing")["aligned"] and not read("never")["aligned"]
+same = total = 0
+for name in ("quadruped_0001", "quadruped_0004"):
+    turned, standing = (open(f"{work}/{run}/labels/{name}.seg").read().split() for run in ("new1", "standing"))
+    same += sum(a == b for a, b in zip(turned, standing))
+    total += len(turned)
+assert same > .95 * total, f"{same} of {total} faces have the labels of the shape that stands"
+END
 refuses "an unknown way of aligning" 2 "--align" "$COSEG" run "${common[@]}" --align maybe --out "$work/x" "$work/turned"
 echo "ok: align"
