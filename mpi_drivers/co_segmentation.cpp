@@ -39,9 +39,15 @@ struct PartitionedRun {
     ShapeAlignment alignment;
 };
 
+/// Where a run keeps what it has found.
+struct KeptPlaces {
+    const RunFolders& folders;
+    RunCheckpoints& checkpoints;
+};
+
 PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entries, const RunOptions& options,
-                           const RunFolders& folders, RunCheckpoints& checkpoints, bool keeps_features,
-                           StageLog& log) {
+                           const KeptPlaces& kept_in, bool keeps_features, StageLog& log) {
+    const auto& [folders, checkpoints] = kept_in;
     const auto& [preset, description, feature_options, optimise, partition, output, process] = options;
     // Every mesh by itself: patches by over-segmentation, and the descriptors of its faces.
     auto [collection, descriptors] =
@@ -93,7 +99,7 @@ BasePartition base_partition(const Comm& comm, const std::vector<MeshEntry>& ent
     const RunFolders folders(comm, options.output, options.process);
     RunCheckpoints checkpoints(comm, folders.state(),
                                cut_option_text(option_values(options), petsc_arguments));
-    return partitioned(comm, &entries, options, folders, checkpoints, true, log).base;
+    return partitioned(comm, &entries, options, {folders, checkpoints}, true, log).base;
 }
 
 CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, const RunOptions& given,
@@ -106,7 +112,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     RunCheckpoints checkpoints(comm, folders.state(),
                                cut_option_text(option_values(options), petsc_arguments));
     auto [base, ranges, model, alignment] =
-        partitioned(comm, entries, options, folders, checkpoints, corrections.is_given, log);
+        partitioned(comm, entries, options, {folders, checkpoints}, corrections.is_given, log);
     auto& [base_options, collection, features, optimisation, cut, examples] = base;
     options = base_options;
     std::vector<OptionValue> values = option_values(options);
@@ -114,8 +120,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     // What a person says of the parts, and how the others follow.
     if (corrections.is_given) {
         FollowedCorrections followed =
-            follow_corrections(comm, base.base(), corrections, features, optimisation.result.coefficients,
-                               options.partition, log);
+            follow_corrections(comm, base.base(), corrections, base.solved(), options.partition, log);
         options.partition.parts = followed.parts;
         values = with_corrected_parts(std::move(values), followed.parts);
         cut = std::move(followed.corrected.cut);

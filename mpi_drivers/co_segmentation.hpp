@@ -42,6 +42,8 @@ struct BasePartition {
     [[nodiscard]] CorrectionBase base() const {
         return {collection, cut, options.partition.parts, examples.faces};
     }
+    /// What they are followed with. It refers to this.
+    [[nodiscard]] SolvedPatches solved() const { return {features, optimisation.result.coefficients}; }
 };
 
 /// Describes, solves and cuts the meshes as co_segment does, and writes no results. Collective. Throws

@@ -173,8 +173,8 @@ void edit(const Invocation& invocation, const EditOptions& options) {
     const CheckedPetsc petsc(comm, invocation.petsc_arguments);
     const BasePartition run = base_partition(comm, entries, run_options, invocation.petsc_arguments, log);
     if (!is_corrected(finished)) refuse_other_labels(comm, run, options.run, log);
-    std::unique_ptr<CorrectedParts> parts = corrected_parts_of(
-        comm, run.base(), run.features, run.optimisation.result.coefficients, run.options.partition);
+    std::unique_ptr<CorrectedParts> parts =
+        corrected_parts_of(comm, run.base(), run.solved(), run.options.partition);
     EditSession session(comm, run.base(), std::move(parts), run.options.output.refine,
                         options.run + "/" + corrections_file);
     serve(comm, session, run, options, view_of(comm, run));

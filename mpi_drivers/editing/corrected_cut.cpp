@@ -218,17 +218,17 @@ std::vector<std::vector<std::string>> reasons(const CorrectionState& state,
 }  // namespace
 
 std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const CorrectionBase& base,
-                                                   const PatchFeatures& features,
-                                                   const SparseCoefficients& coefficients,
+                                                   const SolvedPatches& patches,
                                                    const PartitionOptions& options) {
-    const PartitionInput input = partition_input(comm, base.collection, features, coefficients, options);
+    const PartitionInput input =
+        partition_input(comm, base.collection, patches.features, patches.coefficients, options);
     const std::vector<int> mesh_of = base.collection.numbering.mesh_of();
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(base.collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(base.collection);
     const std::vector<ChoiceDescriptor> choice = input.choice();
     return std::make_unique<CorrectedParts>(
         comm,
-        CutInput{coefficients, neighbors, overlaps, mesh_of, input.patch_area, choice,
+        CutInput{patches.coefficients, neighbors, overlaps, mesh_of, input.patch_area, choice,
                  input.known_positions(), nullptr, &input.features},
         cut_options(input, options), base.cut.confidence);
 }

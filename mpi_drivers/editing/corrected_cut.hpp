@@ -13,11 +13,16 @@
 
 namespace coseg {
 
-/// What corrections of the base are followed with; made once for all of them. `features` may be freed
+/// What a run knows of its patches up to the cut.
+struct SolvedPatches {
+    const PatchFeatures& features;
+    const SparseCoefficients& coefficients;
+};
+
+/// What corrections of the base are followed with; made once for all of them. The features may be freed
 /// afterwards. Collective.
 std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const CorrectionBase& base,
-                                                   const PatchFeatures& features,
-                                                   const SparseCoefficients& coefficients,
+                                                   const SolvedPatches& patches,
                                                    const PartitionOptions& options);
 
 struct CorrectedCut {

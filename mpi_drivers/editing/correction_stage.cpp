@@ -60,13 +60,11 @@ void refuse_other_run(const Comm& comm, const CorrectionBase& base, const std::s
 }
 
 FollowedCorrections follow_corrections(const Comm& comm, const CorrectionBase& base,
-                                       const GivenCorrections& given, const PatchFeatures& features,
-                                       const SparseCoefficients& coefficients,
+                                       const GivenCorrections& given, const SolvedPatches& patches,
                                        const PartitionOptions& options, StageLog& log) {
     log.begin("corrections");
     if (!given.path.empty()) refuse_other_run(comm, base, given.run, given.path);
-    const std::unique_ptr<CorrectedParts> parts =
-        corrected_parts_of(comm, base, features, coefficients, options);
+    const std::unique_ptr<CorrectedParts> parts = corrected_parts_of(comm, base, patches, options);
     const CorrectionState state = state_after(comm, base, given.acts);
     FollowedCorrections followed{corrected_cut(comm, base, state, given.acts, *parts),
                                  state.part_count(),

@@ -46,8 +46,7 @@ struct FollowedCorrections {
 /// The log has the stage "corrections". Collective; throws AgreedError(input) as refuse_other_run,
 /// state_after and corrected_cut do.
 FollowedCorrections follow_corrections(const Comm& comm, const CorrectionBase& base,
-                                       const GivenCorrections& given, const PatchFeatures& features,
-                                       const SparseCoefficients& coefficients,
+                                       const GivenCorrections& given, const SolvedPatches& patches,
                                        const PartitionOptions& options, StageLog& log);
 
 }  // namespace coseg

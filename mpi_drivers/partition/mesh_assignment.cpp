@@ -113,10 +113,6 @@ Eigen::Matrix3Xf joined_positions(const RunModel& model, const Eigen::Matrix3Xd&
     return positions;
 }
 
-int oversegmentations_of(const RunModel& model) {
-    return std::max(1, model.options.description.oversegmentations);
-}
-
 }  // namespace
 
 KnownMeshes known_meshes(const RunModel& model, const std::vector<Descriptor>& descriptors) {
@@ -125,7 +121,8 @@ KnownMeshes known_meshes(const RunModel& model, const std::vector<Descriptor>& d
     const PatchLooks looks{features, places_count(model) ? &places.positions : nullptr, places.frame,
                            places.area, model.mesh_of};
     const PartRegression regression(looks, places.neighbors, {});
-    const double segmentations = static_cast<double>(model.mesh_names.size()) * oversegmentations_of(model);
+    const double segmentations =
+        static_cast<double>(model.mesh_names.size()) * model.options.description.oversegmentations;
     const double share = share_weight(static_cast<double>(model.mesh_of.size()) / segmentations);
     return {model, regression.reduction(), regression.learnt({{}, said_areas(model), {}}),
             explained_weights(descriptors, share, places_count(model))};
@@ -166,8 +163,8 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Ass
                                                places_count(known.model) ? &own_positions : nullptr,
                                                neighbors_of(mesh, 0)));
     outcome.scores = added.scores.cast<float>();
-    outcome.parts =
-        added_parts(added, weights_of_choice(oversegmentations_of(known.model)), ExampleWeights());
+    outcome.parts = added_parts(added, weights_of_choice(known.model.options.description.oversegmentations),
+                                ExampleWeights());
     return outcome;
 }
 

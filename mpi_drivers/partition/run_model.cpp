@@ -181,6 +181,7 @@ bool fits_together(const RunModel& model) {
     return patches > 0 && !model.histograms.empty() && columns_fit && model.mesh_of.size() == patches &&
            below(model.mesh_of, model.mesh_names.size()) &&
            model.options.features.weights.size() == descriptor_table().size() &&
+           model.options.description.oversegmentations > 0 &&
            below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.partition.parts, 0))) &&
            places_fit(model.places, patches);
 }

@@ -147,13 +147,12 @@ std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& object
 
 std::vector<int> climb_by_expansion(const Comm& comm, const PartitionObjective& objective,
                                     const KnownParts& known, std::vector<int> labels, int parts,
-                                    const std::function<double(const std::vector<int>&)>& score,
-                                    std::span<const double> inertias) {
-    double best = score(labels);
-    for (const double inertia : inertias) {
+                                    const Climb& climb) {
+    double best = climb.score(labels);
+    for (const double inertia : climb.inertias) {
         for (int round = 0; round < climb_rounds; ++round) {
             std::vector<int> next = expand_parts(comm, objective, known, labels, parts, inertia);
-            const double value = score(next);
+            const double value = climb.score(next);
             if (!(value > best + least_gain)) break;
             best = value;
             labels = std::move(next);

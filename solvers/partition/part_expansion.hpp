@@ -37,11 +37,16 @@ std::vector<int> expand_parts(const Comm& comm, const PartitionObjective& object
 inline constexpr std::array falling_inertias{20.0, 10.0, 5.0, 0.0};
 inline constexpr std::array no_inertia{0.0};
 
-/// Rounds of expand_parts with the first of the inertias as long as `score`, which is the same function on
-/// all ranks, rises, at most 15; then with the next. Collective.
+/// What a climb follows.
+struct Climb {
+    std::function<double(const std::vector<int>&)> score;  ///< of labels; the same function on all ranks
+    std::span<const double> inertias = no_inertia;
+};
+
+/// Rounds of expand_parts with the first of the inertias as long as the score rises, at most 15; then with
+/// the next. Collective.
 std::vector<int> climb_by_expansion(const Comm& comm, const PartitionObjective& objective,
                                     const KnownParts& known, std::vector<int> labels, int parts,
-                                    const std::function<double(const std::vector<int>&)>& score,
-                                    std::span<const double> inertias = no_inertia);
+                                    const Climb& climb);
 
 }  // namespace coseg

@@ -149,7 +149,7 @@ PartitionCandidate expanded(const Comm& comm, const SearchTask& task, PartitionC
         return is_worse ? -std::numeric_limits<double>::infinity() : tried.score;
     };
     outcome.labels =
-        climb_by_expansion(comm, task.objective, {}, outcome.labels, task.parts, score, falling_inertias);
+        climb_by_expansion(comm, task.objective, {}, outcome.labels, task.parts, {score, falling_inertias});
     describe_outcome(task, outcome);
     return outcome;
 }

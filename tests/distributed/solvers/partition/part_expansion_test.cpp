@@ -103,19 +103,19 @@ TEST(PartExpansion, NeverLowersTheScoreThatItClimbs) {
         for (int i = 0; i < 36; ++i) start.push_back(static_cast<int>(random.uniform() * 4.0));
         const auto score = [&](const std::vector<int>& labels) { return patches.value(labels); };
         const std::vector<int> found =
-            climb_by_expansion(comm, patches.objective, patches.known, start, 4, score);
+            climb_by_expansion(comm, patches.objective, patches.known, start, 4, {score});
         EXPECT_GT(score(found), score(start));
         const Comm self(MPI_COMM_SELF);
-        EXPECT_EQ(climb_by_expansion(self, patches.objective, patches.known, start, 4, score), found)
+        EXPECT_EQ(climb_by_expansion(self, patches.objective, patches.known, start, 4, {score}), found)
             << "on any number of ranks";
         const std::vector<int> again =
-            climb_by_expansion(comm, patches.objective, patches.known, found, 4, score);
+            climb_by_expansion(comm, patches.objective, patches.known, found, 4, {score});
         EXPECT_EQ(again, found) << "there is nothing more to gain";
         patches.objective.share.assign(36, 1.0 / 12.0);
         const std::vector<int> slowly =
-            climb_by_expansion(comm, patches.objective, patches.known, start, 4, score, falling_inertias);
+            climb_by_expansion(comm, patches.objective, patches.known, start, 4, {score, falling_inertias});
         EXPECT_GT(score(slowly), score(start));
-        EXPECT_EQ(climb_by_expansion(comm, patches.objective, patches.known, slowly, 4, score), slowly)
+        EXPECT_EQ(climb_by_expansion(comm, patches.objective, patches.known, slowly, 4, {score}), slowly)
             << "the last rounds have no inertia";
     }
 }
