@@ -148,16 +148,28 @@ def turn_off(source, target, rotation):
         file.write("\n".join(lines) + "\n")
 
 
+def turn_meshes(source, names, target):
+    """Copies of these OFF files in the new folder `target`, each turned at random, as its name alone says."""
+    os.makedirs(target)
+    for name in names:
+        turn_off(os.path.join(source, name), os.path.join(target, name), random_rotation(name))
+
+
+def labelled_meshes(one_set):
+    """The paths of the meshes of a set that have a truth, sorted."""
+    return sorted(os.path.join(folder, name) for folder in one_set["meshes"] for name in os.listdir(folder)
+                  if os.path.exists(os.path.join(one_set["truth"], os.path.splitext(name)[0] + ".seg"))
+                  and not name.endswith(".seg"))
+
+
 def turned_sets(sets, folder):
     turned = {}
     for name, one_set in sets.items():
         if "truth" not in one_set:
             sys.exit("accuracy: --turned is for sets with a truth of their own")
         made = os.path.join(folder, "turned", name)
-        os.makedirs(made)
-        for mesh in sorted(os.listdir(one_set["meshes"][0])):
-            if mesh.endswith(".off"):
-                turn_off(os.path.join(one_set["meshes"][0], mesh), os.path.join(made, mesh), random_rotation(mesh))
+        source = one_set["meshes"][0]
+        turn_meshes(source, [mesh for mesh in os.listdir(source) if mesh.endswith(".off")], made)
         turned[f"{name} (turned)"] = {**one_set, "meshes": [made]}
     return turned
 

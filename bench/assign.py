@@ -18,7 +18,7 @@ import shutil
 import tempfile
 import time
 
-from accuracy import command_output, mean_and_deviation, random_rotation, truth_labels, turn_off
+from accuracy import command_output, mean_and_deviation, truth_labels, turn_meshes
 from links import meshes_and_truth
 
 
@@ -40,14 +40,6 @@ def accuracies(args, truth, labels, meshes):
     return score["per_shape"]
 
 
-def turned(meshes, names, folder):
-    """Copies of the meshes, turned at random, in `folder`."""
-    os.mkdir(folder)
-    for name in names:
-        turn_off(os.path.join(meshes, name), os.path.join(folder, name), random_rotation(name))
-    return folder
-
-
 def measure(args, folder, seed):
     meshes, truth = meshes_and_truth(folder)
     names = mesh_names(meshes)
@@ -66,7 +58,10 @@ def measure(args, folder, seed):
         run = ["run", "--seed", str(seed), "--parts", str(truth_labels(truth))] + quiet
         full = timed(start + run + ["--out", out("full"), meshes])
         command_output(start + run + ["--out", out("rest"), listed("rest.txt", [n for n in names if n not in left])])
-        added = turned(meshes, left, out("turned")) if args.turned else meshes
+        added = meshes
+        if args.turned:
+            added = out("turned")
+            turn_meshes(meshes, left, added)
         new = timed(start + ["assign", "--to", out("rest"), "--out", out("new"), listed("left.txt", left, added)] + quiet)
         for label in os.listdir(out("new") + "/labels"):
             shutil.copy(out("new") + "/labels/" + label, out("rest") + "/labels/" + label)

@@ -4,14 +4,16 @@
 //   mpirun -n P choice_bench --truth DIR --parts K [--seed 1] [--searches 1] [--spread 0.5]
 //                            [--weights FILE ...] [--unweighted] -- MESH...
 //
-// The graphs are cut once. For each FILE there are so many searches: the first has its weights, and each
-// other one has every weight multiplied by exp(spread * a standard normal number). A FILE is JSON, {"term":
-// weight, ...}; the other weights are the program's, and all are without a FILE. A weight of 1 of a term that
-// is printed adds the term to the score, whatever the numbers of patches and over-segmentations are.
+// The graphs of the starts that a run keeps are cut once for all searches. For each FILE there are so many
+// searches: the first has its weights, and each other one has every weight multiplied by exp(spread * a
+// standard normal number). A FILE is JSON, {"term": weight, ...}; the other weights are the program's, and
+// all are without a FILE. A weight of 1 of a term that is printed adds the term to the score, whatever the
+// numbers of patches and over-segmentations are.
 
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -23,7 +25,6 @@
 #include "mpi_drivers/partition/cut_stage.hpp"
 #include "mpi_drivers/partition/example_stage.hpp"
 #include "mpi_drivers/process/checked_petsc.hpp"
-#include "solvers/partition/part_shares.hpp"
 #include "solvers/partition/partition_search.hpp"
 #include "solvers/partition/start_clusterings.hpp"
 #include "src/base/index.hpp"

@@ -31,7 +31,7 @@ import random
 import tempfile
 
 import numpy as np
-from accuracy import command_output, find_sets, generated_sets, markdown, write_whole
+from accuracy import command_output, find_sets, generated_sets, labelled_meshes, markdown, write_whole
 from scipy.optimize import minimize
 
 PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -41,12 +41,6 @@ KINDS = {"humans_adobe": "people", "humans_scape": "people", "generated_human": 
          "psb_ant": "ants", "generated_ant": "ants", "psb_cup": "cups", "generated_cup": "cups",
          "psb_plier": "pliers", "generated_pliers": "pliers", "psb_fourleg": "quadrupeds", "generated_quadruped": "quadrupeds",
          "psb_vase": "vases", "coseg_large_vases": "vases", "generated_goblet": "vases"}
-
-
-def labelled_meshes(one_set):
-    folder = one_set["truth"]
-    return sorted(os.path.join(place, name) for place in one_set["meshes"] for name in os.listdir(place)
-                  if not name.endswith(".seg") and os.path.exists(os.path.join(folder, os.path.splitext(name)[0] + ".seg")))
 
 
 def runs_of(arguments, folder):
@@ -96,12 +90,12 @@ def make_pools(arguments):
 
 
 def read_pools(folder):
-    """The names of terms, the program's weights, and of each run: family, values, accuracies."""
+    """Of each run: the names of terms, the program's weights, and the accuracy of partitions by their values."""
     found = {}
     for path in sorted(pathlib.Path(folder).glob("*.json")):
         pool = json.loads(path.read_text())
         name = ".".join(path.name.split(".")[:2])
-        of_run = found.setdefault(name, {"terms": pool["terms"], "weights": pool["weights"], "partitions": {}, "truth": pool["truth"]})
+        of_run = found.setdefault(name, {"terms": pool["terms"], "weights": pool["weights"], "partitions": {}})
         for partition in pool["partitions"]:
             if not partition["degenerate"]:
                 of_run["partitions"][tuple(partition["values"])] = partition["accuracy"]

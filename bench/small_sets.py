@@ -20,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-from accuracy import find_sets, generated_sets
+from accuracy import find_sets, generated_sets, labelled_meshes
 from examples import score
 from run_words import parsed_with_options
 
@@ -37,10 +37,7 @@ def accuracy(arguments, sample, seed, out):
 
 def sample_of(one_set, size, seed):
     """So many shapes of a labelled set, drawn by the seed."""
-    meshes = sorted(os.path.join(folder, name) for folder in one_set["meshes"] for name in os.listdir(folder)
-                    if os.path.exists(os.path.join(one_set["truth"], os.path.splitext(name)[0] + ".seg"))
-                    and not name.endswith(".seg"))
-    return {**one_set, "meshes": random.Random(f"{size} {seed}").sample(meshes, size)}
+    return {**one_set, "meshes": random.Random(f"{size} {seed}").sample(labelled_meshes(one_set), size)}
 
 
 def measure_samples(arguments):

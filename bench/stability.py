@@ -24,7 +24,7 @@ import tempfile
 
 import numpy
 
-from accuracy import chosen_sets, markdown, random_rotation, turn_off, write_whole
+from accuracy import chosen_sets, markdown, turn_meshes, write_whole
 from consistency import Shape, agreement, segment
 from examples import add_set_arguments, score
 
@@ -69,10 +69,7 @@ def run_shuffled(arguments, folder, shapes, parts, work):
 
 def run_turned(arguments, folder, shapes, parts, work):
     made = os.path.join(work, "turned")
-    os.makedirs(made)
-    for shape in shapes:
-        file = shape.name + ".off"
-        turn_off(os.path.join(folder, file), os.path.join(made, file), random_rotation(file))
+    turn_meshes(folder, [shape.name + ".off" for shape in shapes], made)
     return [segment(arguments, parts, arguments.seed, os.path.join(work, "out"), [made])]
 
 

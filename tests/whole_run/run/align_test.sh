@@ -8,10 +8,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 python3 - "$COSEG_SOURCE/bench" "$work/set/meshes" "$work/turned" <<'END'
 import os, sys
 sys.path.insert(0, sys.argv[1])
-from accuracy import random_rotation, turn_off
-os.makedirs(sys.argv[3])
-for mesh in os.listdir(sys.argv[2]):
-    turn_off(os.path.join(sys.argv[2], mesh), os.path.join(sys.argv[3], mesh), random_rotation(mesh))
+from accuracy import turn_meshes
+turn_meshes(sys.argv[2], os.listdir(sys.argv[2]), sys.argv[3])
 END
 common=(--parts 4 --patches 30 --geodesic-samples 100 --oversegmentations 3 --no-html)
 # What is described once serves all runs but that on two ranks.
