@@ -147,13 +147,12 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Ass
                                          ": it has nothing in common with the run's shapes; leave it out");
     }
     const SinglePrecisionFeatures features(self, problem.features);
-    AddedPose& pose = outcome.figures.pose;
     const Eigen::Matrix3Xd as_in_file = input.features.positions.middleCols(first, count);
-    pose.pose.found = true;
+    LinkedPoints places;  // none where places do not count
     if (places_count(known.model))
-        pose = added_pose(linked_points(known.model, added.links, added.patch_area, as_in_file),
-                          known.model.places.shapes, mesh.key);
-    const Eigen::Matrix3Xd own_positions = turned_positions(pose.pose, as_in_file);
+        places = linked_points(known.model, added.links, added.patch_area, as_in_file);
+    outcome.figures.pose = added_pose(places, known.model.places.shapes, mesh.key);
+    const Eigen::Matrix3Xd own_positions = turned_positions(outcome.figures.pose.pose, as_in_file);
     const Eigen::Matrix3Xf positions = joined_positions(known.model, own_positions);
     const std::vector<ChoiceDescriptor> descriptors = choice_descriptors(features, positions, known.weights);
     added.descriptors = descriptors;

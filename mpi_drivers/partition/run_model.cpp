@@ -306,8 +306,7 @@ ModelPatches in_frame(ModelPatches patches, const Collection& collection, const 
     std::vector<int> mesh_of_kept;
     for (const int p : patches.columns) mesh_of_kept.push_back(mesh_of[at(p)]);
     PatchPlaces& places = patches.places;
-    if (places.positions.cols() > 0)
-        places.positions = turned_positions(alignment, places.positions, mesh_of_kept);
+    places.positions = turned_positions(alignment, places.positions, mesh_of_kept);
     places.frame = frame;
     places.shapes = frame_of_shapes(alignment);
     return patches;

@@ -1,33 +1,17 @@
 #include "solvers/alignment/added_pose.hpp"
 
+#include "solvers/alignment/pose_rounds.hpp"
 #include "solvers/alignment/shape_alignment.hpp"
 
 namespace coseg {
 
 namespace {
 
-constexpr int turns_tried = 40;  ///< beside those by right angles
-
-std::vector<Eigen::Matrix3d> tried_rotations(std::uint64_t seed) {
-    std::vector<Eigen::Matrix3d> rotations = axis_rotations();
-    for (const Eigen::Matrix3d& rotation : hashed_rotations(turns_tried, seed)) rotations.push_back(rotation);
-    return rotations;
-}
-
-/// The shape stands in its file like the others, unless its links say clearly that it does not.
-ShapePose turned_if_outlier(ShapePose as_it_stands, const FittedRotation& best, double enough) {
-    if (best.agreement < outlier_gain * as_it_stands.agreement || best.agreement < enough)
-        return as_it_stands;
-    as_it_stands.rotation = best.rotation;
-    as_it_stands.agreement = best.agreement;
-    return as_it_stands;
-}
-
-ShapePose turned(const FittedRotation& best, const FittedRotation& mirrored, double enough) {
+ShapePose turned(const FittedRotation& best, const FittedRotation& reflected, double enough) {
     ShapePose pose;
-    pose.reflected = mirrored.agreement >= clearly_better * best.agreement;
-    pose.rotation = pose.reflected ? Eigen::Matrix3d(-mirrored.rotation) : best.rotation;
-    pose.agreement = pose.reflected ? mirrored.agreement : best.agreement;
+    pose.reflected = reflected.agreement >= clearly_better * best.agreement;
+    pose.rotation = pose.reflected ? Eigen::Matrix3d(-reflected.rotation) : best.rotation;
+    pose.agreement = pose.reflected ? reflected.agreement : best.agreement;
     pose.found = pose.agreement >= enough;
     return pose;
 }
@@ -49,7 +33,7 @@ AddedPose added_pose(const LinkedPoints& links, const FrameOfShapes& frame, std:
     const std::vector<Eigen::Matrix3d> rotations = tried_rotations(seed);
     const FittedRotation best = fitted(links, rotations);
     if (frame.as_in_files) return {turned_if_outlier(as_it_stands, best, enough), in_file};
-    return {turned(best, fitted({-links.own, links.other, links.weight}, rotations), enough), in_file};
+    return {turned(best, fitted(mirrored(links), rotations), enough), in_file};
 }
 
 }  // namespace coseg

@@ -17,7 +17,6 @@ namespace coseg {
 namespace {
 
 constexpr int hashed_starts = 24;
-constexpr int tried_turns = 40;  ///< beside those by right angles
 constexpr double as_good = 0.9;
 constexpr double certain_of_median = 0.8;
 constexpr double enough_of_links = 1.0 / 3.0;
@@ -90,11 +89,6 @@ ShapePose half_step(const LinkedPoints& points, ShapePose pose) {
     return pose;
 }
 
-LinkedPoints mirrored(LinkedPoints points) {
-    points.own = -points.own;
-    return points;
-}
-
 }  // namespace
 
 double median_agreement(const std::vector<ShapePose>& poses) {
@@ -103,6 +97,14 @@ double median_agreement(const std::vector<ShapePose>& poses) {
     const auto middle = agreements.begin() + std::ssize(agreements) / 2;
     std::nth_element(agreements.begin(), middle, agreements.end());
     return *middle;
+}
+
+ShapePose turned_if_outlier(ShapePose as_it_stands, const FittedRotation& best, double enough) {
+    if (best.agreement < outlier_gain * as_it_stands.agreement || best.agreement < enough)
+        return as_it_stands;
+    as_it_stands.rotation = best.rotation;
+    as_it_stands.agreement = best.agreement;
+    return as_it_stands;
 }
 
 PoseRounds::PoseRounds(const Comm& comm, const AlignmentInput& input, const LinksOfMeshes& links)
@@ -150,10 +152,8 @@ bool PoseRounds::is_in_turn(int mesh) const {
 }
 
 double PoseRounds::standing_share() const {
-    std::vector<Eigen::Matrix3d> turns = axis_rotations();
-    turns.erase(turns.begin());
-    for (const Eigen::Matrix3d& rotation : hashed_rotations(tried_turns, input_.seed))
-        turns.push_back(rotation);
+    std::vector<Eigen::Matrix3d> turns = tried_rotations(input_.seed);
+    turns.erase(turns.begin());  // the identity
     std::int64_t standing = 0;
     for (const std::vector<PatchLink>& of_mesh : links_.links) {
         const LinkedPoints points = points_of(of_mesh);
@@ -245,11 +245,7 @@ ShapePose PoseRounds::turned_outlier(int mesh, const LinkedPoints& points, doubl
     }
     pose.agreement = agreement(points, pose.rotation);
     const std::uint64_t seed = hash_words({input_.seed, input_.mesh_keys[at(mesh)]});
-    const FittedRotation best = fitted(points, hashed_rotations(hashed_starts, seed));
-    if (best.agreement < outlier_gain * pose.agreement || best.agreement < enough) return pose;
-    pose.rotation = best.rotation;
-    pose.agreement = best.agreement;
-    return pose;
+    return turned_if_outlier(pose, fitted(points, hashed_rotations(hashed_starts, seed)), enough);
 }
 
 void PoseRounds::turn_outliers() {

@@ -19,6 +19,10 @@ namespace coseg {
 /// The median of the agreements, of two in the middle the larger. At least one pose.
 double median_agreement(const std::vector<ShapePose>& poses);
 
+/// The pose of a shape among others that stand alike: the rotation is taken only where links agree
+/// outlier_gain times as well with it, and at least to `enough`.
+ShapePose turned_if_outlier(ShapePose as_it_stands, const FittedRotation& best, double enough);
+
 /// From where else than its own pose a shape is fitted.
 enum class FitStarts {
     none,

@@ -43,6 +43,11 @@ FittedRotation measured(const LinkedPoints& points, const Eigen::Matrix3d& rotat
 
 }  // namespace
 
+LinkedPoints mirrored(LinkedPoints points) {
+    points.own = -points.own;
+    return points;
+}
+
 double agreement(const LinkedPoints& points, const Eigen::Matrix3d& rotation) {
     return falling_weights(points, rotation, agreement_width).sum();
 }
@@ -102,6 +107,13 @@ std::vector<Eigen::Matrix3d> axis_rotations() {
             }
         }
     }
+    return rotations;
+}
+
+std::vector<Eigen::Matrix3d> tried_rotations(std::uint64_t seed) {
+    constexpr int hashed = 40;
+    std::vector<Eigen::Matrix3d> rotations = axis_rotations();
+    for (const Eigen::Matrix3d& rotation : hashed_rotations(hashed, seed)) rotations.push_back(rotation);
     return rotations;
 }
 

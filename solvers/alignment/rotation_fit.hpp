@@ -18,6 +18,9 @@ struct LinkedPoints {
 /// legs of a chair.
 inline constexpr double agreement_width = 0.5;
 
+/// The same links of the shape mirrored at its centre.
+LinkedPoints mirrored(LinkedPoints points);
+
 /// Mean over the links, by weight, of exp(-d^2 / 2 s^2) with d = |R own - other| and s = agreement_width.
 double agreement(const LinkedPoints& points, const Eigen::Matrix3d& rotation);
 
@@ -44,6 +47,9 @@ std::vector<Eigen::Matrix3d> hashed_rotations(int count, std::uint64_t seed);
 /// The 24 rotations that take the axes to axes, the identity first: what the customs of modelling programs
 /// differ by.
 std::vector<Eigen::Matrix3d> axis_rotations();
+
+/// Those and 40 hashed ones: what is tried for a shape of which nothing is known.
+std::vector<Eigen::Matrix3d> tried_rotations(std::uint64_t seed);
 
 /// In degrees, 0 .. 180.
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);

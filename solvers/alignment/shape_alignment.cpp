@@ -139,8 +139,9 @@ bool shapes_stand_alike(const ShapeAlignment& alignment) {
 }
 
 Eigen::Matrix3Xd turned_positions(const ShapePose& pose, const Eigen::Matrix3Xd& positions) {
-    if (!pose.found) return Eigen::Matrix3Xd::Zero(3, positions.cols());
-    return pose.rotation * positions;
+    ShapeAlignment of_one;
+    of_one.shapes = {pose};
+    return turned_positions(of_one, positions, std::vector<int>(at(positions.cols()), 0));
 }
 
 Eigen::Matrix3Xd turned_positions(const ShapeAlignment& alignment, const Eigen::Matrix3Xd& positions,

@@ -6,26 +6,13 @@
 #include <Eigen/LU>
 
 #include "solvers/alignment/shape_alignment.hpp"
-#include "src/base/seeded_random.hpp"
+#include "tests/support/turned_points.hpp"
 
 namespace coseg {
 namespace {
 
-/// A shape without any symmetry that has to be turned by `rotation`; of every ten links `wrong` lead
-/// elsewhere.
 LinkedPoints links_of_turned_shape(const Eigen::Matrix3d& rotation, int wrong) {
-    constexpr int count = 200;
-    SeededStream random(8);
-    LinkedPoints points{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count),
-                        Eigen::VectorXd::Constant(count, 1.0 / count)};
-    for (int k = 0; k < count; ++k)
-        points.own.col(k) =
-            Eigen::Vector3d(2.0 * random.normal(), random.normal(), 0.5 * random.normal() + random.uniform());
-    for (int k = 0; k < count; ++k) {
-        const int other = k % 10 < wrong ? static_cast<int>(random() % count) : k;
-        points.other.col(k) = rotation * points.own.col(other);
-    }
-    return points;
+    return test::turned_points(rotation, wrong, 8);
 }
 
 const Eigen::Matrix3d quarter_turn = axis_rotations()[5];

@@ -5,25 +5,13 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "src/base/seeded_random.hpp"
+#include "tests/support/turned_points.hpp"
 
 namespace coseg {
 namespace {
 
-/// Points without any symmetry, turned by `rotation`; of every ten links `wrong` lead to another point.
 LinkedPoints linked_points(const Eigen::Matrix3d& rotation, int wrong) {
-    constexpr int count = 200;
-    SeededStream random(3);
-    LinkedPoints points{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count),
-                        Eigen::VectorXd::Constant(count, 1.0 / count)};
-    for (int k = 0; k < count; ++k)
-        points.own.col(k) =
-            Eigen::Vector3d(2.0 * random.normal(), random.normal(), 0.5 * random.normal() + random.uniform());
-    for (int k = 0; k < count; ++k) {
-        const int other = k % 10 < wrong ? static_cast<int>(random() % count) : k;
-        points.other.col(k) = rotation * points.own.col(other);
-    }
-    return points;
+    return test::turned_points(rotation, wrong, 3);
 }
 
 TEST(RotationFit, FindsTheRotationWhereSevenOfTenLinksAreWrong) {
