@@ -22,11 +22,6 @@ constexpr std::array<const char*, 6> marks_of_launchers{
     "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_STEPID", "ALPS_APP_PE"};
 constexpr std::array<std::string_view, 3> commands_in_parallel{"run", "assign", "edit"};
 
-bool is_launched() {
-    return std::any_of(marks_of_launchers.begin(), marks_of_launchers.end(),
-                       [](const char* name) { return std::getenv(name) != nullptr; });
-}
-
 std::optional<int> number_in(std::string_view text) {
     int number = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -70,6 +65,11 @@ void prepare_environment() {
 }
 
 }  // namespace
+
+bool is_launched() {
+    return std::any_of(marks_of_launchers.begin(), marks_of_launchers.end(),
+                       [](const char* name) { return std::getenv(name) != nullptr; });
+}
 
 void launch_on_all_cores(int argc, char** argv) {
     const std::vector<std::string_view> words(argv + std::min(argc, 1), argv + argc);

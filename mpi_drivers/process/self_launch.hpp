@@ -5,6 +5,9 @@
 
 namespace coseg {
 
+/// Whether mpirun, srun or another launcher that MPI knows of has started this process.
+bool is_launched();
+
 /// Call this before MPI is initialised. It replaces this process by `mpirun -n RANKS` with the same command
 /// line if
 /// - the command is one that divides its work over ranks (run),

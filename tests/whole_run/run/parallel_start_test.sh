@@ -29,6 +29,16 @@ expects 2 "$work/two"
 ranks 2 "$COSEG" run "${common[@]}" --ranks 4 --out "$work/mpirun" "$work/set"
 expects 2 "$work/mpirun"
 
+# One process makes no folder of a session: others that end would remove it from under one that starts.
+touch "$work/no_folder"
+OMPI_MCA_orte_tmpdir_base="$work/no_folder" "$COSEG" check "$work/set" > "$work/checked" ||
+    fail "a process alone needs a folder of a session"
+for process in 1 2 3 4; do
+    (for time in 1 2 3 4 5; do "$COSEG" check "$work/set" > "$work/checked_$process" 2>&1 || echo "$time" >> "$work/failed"; done) &
+done
+wait
+[ ! -e "$work/failed" ] || fail "one of processes that start side by side: $(cat "$work"/checked_?)"
+
 refuses "a number of ranks that is none" 2 "--ranks" "$COSEG" run "${common[@]}" --ranks many --out "$work/x" "$work/set"
 refuses "a negative number of ranks" 2 "--ranks" "$COSEG" run "${common[@]}" --ranks -2 --out "$work/x" "$work/set"
 refuses "an error on all cores" 3 "no such file" "$COSEG" run "${common[@]}" --ranks 2 --out "$work/x" "$work/none"
