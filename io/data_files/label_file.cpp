@@ -6,6 +6,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
+#include "io/files/number_text.hpp"
 #include "io/files/text_cursor.hpp"
 #include "src/base/index.hpp"
 
@@ -40,11 +41,7 @@ std::vector<int> parse_labels(std::string_view bytes, const std::string& path, i
 std::string label_text(const std::vector<int>& labels) {
     std::string content;
     content.reserve(2 * labels.size() + 16);
-    char digits[16];
-    for (const int label : labels) {
-        content.append(digits, std::to_chars(digits, digits + sizeof digits, label).ptr);
-        content.push_back('\n');
-    }
+    for (const int label : labels) append_number(content, label, '\n');
     return content;
 }
 

@@ -378,6 +378,15 @@ int add_positions(GltfDocument& document, const std::vector<Eigen::Vector3f>& ve
                                          {"max", list(high)}});
 }
 
+/// What a node says of where the surface stands in the scene.
+OrderedJson place_of(const GltfSurface& surface) {
+    OrderedJson place = OrderedJson::object();
+    if (surface.origin != Eigen::Vector3d::Zero())
+        place["translation"] = {surface.origin.x(), surface.origin.y(), surface.origin.z()};
+    if (surface.scale != 1.0) place["scale"] = {surface.scale, surface.scale, surface.scale};
+    return place;
+}
+
 }  // namespace
 
 std::string glb_of_surface(const GltfSurface& surface, const GltfObjects& objects, const std::string& path) {
@@ -390,9 +399,7 @@ std::string glb_of_surface(const GltfSurface& surface, const GltfObjects& object
     }
     GltfDocument document({{"asset", {{"version", "2.0"}, {"generator", "coseg"}}}, {"scene", 0}});
     const int positions = add_positions(document, surface.vertices);
-    OrderedJson place = OrderedJson::object();
-    if (surface.origin != Eigen::Vector3d::Zero())
-        place["translation"] = {surface.origin.x(), surface.origin.y(), surface.origin.z()};
+    const OrderedJson place = place_of(surface);
     std::map<int, int> materials;
     std::vector<std::vector<PlacedMesh>> meshes(objects.objects.size());
     for (std::size_t k = 0; k < meshes.size(); ++k) {

@@ -29,6 +29,7 @@ struct GltfSurface {
     std::vector<Eigen::Vector3f> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the vertices in the scene
+    double scale = 1.0;                                ///< length in the scene of a unit of the vertices
 };
 
 /// A GLB file of the triangles: one node, mesh and material an object; extras `part` and `piece` at the

@@ -41,7 +41,9 @@ void check_corner_count(const GltfAsset& asset, const GltfScene& scene) {
 /// Makes one mesh of all draws of a scene.
 class GltfCollector {
   public:
-    explicit GltfCollector(const GltfAsset& asset) : asset_(asset) { mesh_.offsets.push_back(0); }
+    GltfCollector(const GltfAsset& asset, double negligible) : asset_(asset), welder_(negligible) {
+        mesh_.offsets.push_back(0);
+    }
 
     void add(const GltfDraw& draw) {
         const int accessor = asset_.meshes[at(draw.mesh)][at(draw.primitive)].positions;
@@ -118,14 +120,25 @@ GltfObjects objects_of(const FaceArrays& arrays, const std::vector<int>& parts) 
     return objects;
 }
 
-Eigen::Vector3d middle_of(const PolygonMesh& mesh) {
-    Eigen::Vector3d low = mesh.vertices.front();
-    Eigen::Vector3d high = low;
-    for (const Eigen::Vector3d& p : mesh.vertices) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
+/// In numbers of single precision. Where these would lose digits, the vertices are taken from the middle of
+/// the mesh, and in its own size where it is too small for such numbers.
+GltfSurface surface_of(const PolygonMesh& mesh) {
+    constexpr double smallest_extent = 1e-30;
+    GltfSurface surface;
+    if (lost_digits(mesh)) {
+        Eigen::Vector3d low = mesh.vertices.front();
+        Eigen::Vector3d high = low;
+        for (const Eigen::Vector3d& p : mesh.vertices) {
+            low = low.cwiseMin(p);
+            high = high.cwiseMax(p);
+        }
+        surface.origin = 0.5 * (low + high);
+        const double extent = (high - low).maxCoeff();
+        if (extent < smallest_extent) surface.scale = extent;
     }
-    return 0.5 * (low + high);
+    for (const Eigen::Vector3d& p : mesh.vertices)
+        surface.vertices.emplace_back(((p - surface.origin) / surface.scale).cast<float>());
+    return surface;
 }
 
 }  // namespace
@@ -135,9 +148,12 @@ ParsedMesh read_gltf(std::string_view bytes, const std::string& path) {
     const GltfAsset asset = read_gltf_asset(container, path);
     const GltfScene scene = gltf_scene(asset);
     check_corner_count(asset, scene);
-    GltfCollector collector(asset);
-    for (const GltfDraw& draw : scene.draws) collector.add(draw);
-    ParsedMesh parsed{collector.finish(), container.warnings};
+    const auto collected = [&](double negligible) {
+        GltfCollector collector(asset, negligible);
+        for (const GltfDraw& draw : scene.draws) collector.add(draw);
+        return collector.finish();
+    };
+    ParsedMesh parsed{read_welded(collected), container.warnings};
     if (scene.passed_over > 0) {
         parsed.warnings.push_back(path + ": " + with_unit(scene.passed_over, "primitive", "primitives") +
                                   " of points or lines are passed over");
@@ -151,10 +167,7 @@ ParsedMesh read_gltf(std::string_view bytes, const std::string& path) {
 void write_glb(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
     const GltfObjects of_faces = objects_of(arrays, parts_of(arrays, mesh.face_count(), path));
     GltfObjects objects{of_faces.objects, of_faces.part_names, {}};
-    GltfSurface surface;
-    if (lost_digits(mesh)) surface.origin = middle_of(mesh);
-    for (const Eigen::Vector3d& p : mesh.vertices)
-        surface.vertices.emplace_back((p - surface.origin).cast<float>());
+    GltfSurface surface = surface_of(mesh);
     for (const FaceTriangle& triangle : face_triangles(mesh)) {
         const auto vertex = [&](std::size_t k) { return static_cast<std::uint32_t>(triangle.vertices[k]); };
         surface.triangles.push_back({vertex(0), vertex(1), vertex(2)});

@@ -21,10 +21,11 @@ ParsedMesh read_gltf(std::string_view bytes, const std::string& path);
 
 /// Writes triangles in single precision without normals: one node, mesh and material a part, in the order of
 /// parts; with an array "piece" beside the parts, one node a piece below the node of its part. Faces of
-/// a part below 0 are left out. Polygons are
-/// cut into triangles, and faces of fewer than three corners are left out. Where lost_digits.hpp asks for it,
-/// vertices are kept relative to the middle of the shape, which the nodes add. Names are those of
-/// arrays.part_names. Error(output) as atomic_file.hpp, Error(internal) as parts_of.
+/// a part below 0 are left out. Polygons are cut into triangles, and faces of fewer than three corners are
+/// left out. Where lost_digits.hpp asks for it, vertices are kept relative to the middle of the shape, which
+/// the nodes add; those of a shape too small for single precision are divided by its size, which the nodes
+/// give back. Names are those of arrays.part_names. Error(output) as atomic_file.hpp, Error(internal) as
+/// parts_of.
 void write_glb(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);
 
 /// Writes the glTF file of these bytes again with its triangles shared out among nodes as above

@@ -26,8 +26,10 @@ double average_edge(const PolygonMesh& mesh) {
         const int end = mesh.offsets[at(f) + 1];
         for (int k = begin; k < end; ++k) {
             const int next = k + 1 < end ? k + 1 : begin;
+            // Scaled, as the squares of edges below 1e-162 would be 0.
             const double length =
-                (mesh.vertices[at(mesh.corners[at(k)])] - mesh.vertices[at(mesh.corners[at(next)])]).norm();
+                (mesh.vertices[at(mesh.corners[at(k)])] - mesh.vertices[at(mesh.corners[at(next)])])
+                    .stableNorm();
             if (!(length > 0.0)) continue;
             sum += length;
             ++count;
@@ -45,12 +47,12 @@ std::optional<std::string> lost_digits(const PolygonMesh& mesh) {
     const double step = std::nextafter(single, std::numeric_limits<float>::infinity()) - single;
     const double edge = average_edge(mesh);
     if (!(edge > 0.0) || step <= most_steps * edge) return std::nullopt;
+    const bool is_tiny = largest < static_cast<double>(std::numeric_limits<float>::min());
     char text[320];
     std::snprintf(text, sizeof text,
                   "coordinates up to %.6g in single precision have steps of %.2g, but the average edge is "
-                  "%.2g long: digits are lost; export the mesh near the origin, or in a format of text with "
-                  "all digits",
-                  largest, step, edge);
+                  "%.2g long: digits are lost; export the mesh %s, or in a format of text with all digits",
+                  largest, step, edge, is_tiny ? "larger" : "near the origin");
     return text;
 }
 

@@ -1,12 +1,12 @@
 #include "io/mesh_files/off_format.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "io/files/atomic_file.hpp"
+#include "io/files/number_text.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/mesh_files/mesh_limits.hpp"
 #include "io/mesh_files/off_header.hpp"
@@ -199,21 +199,8 @@ class OffReader {
     std::int64_t wrapped_line_ = 0;
 };
 
-template <typename Number>
-void append(std::string& text, Number number, char separator) {
-    char digits[32];
-    text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-    text.push_back(separator);
-}
-
 std::string header(int vertices, int faces) {
     return "OFF\n" + std::to_string(vertices) + " " + std::to_string(faces) + " 0\n";
-}
-
-void append_point(std::string& text, const Eigen::Vector3d& p) {
-    append(text, p.x(), ' ');
-    append(text, p.y(), ' ');
-    append(text, p.z(), '\n');
 }
 
 }  // namespace
@@ -237,8 +224,8 @@ void write_off(const std::string& path, const PolygonMesh& mesh) {
     for (std::size_t f = 0; f + 1 < mesh.offsets.size(); ++f) {
         const int begin = mesh.offsets[f];
         const int end = mesh.offsets[f + 1];
-        append(text, end - begin, end > begin ? ' ' : '\n');
-        for (int k = begin; k < end; ++k) append(text, mesh.corners[at(k)], k + 1 < end ? ' ' : '\n');
+        append_number(text, end - begin, end > begin ? ' ' : '\n');
+        for (int k = begin; k < end; ++k) append_number(text, mesh.corners[at(k)], k + 1 < end ? ' ' : '\n');
     }
     write_file(path, text);
 }
@@ -248,7 +235,7 @@ void write_off(const std::string& path, const TriMesh& mesh) {
     for (int v = 0; v < mesh.vertex_count(); ++v) append_point(text, mesh.vertices.col(v));
     for (int f = 0; f < mesh.face_count(); ++f) {
         text += "3 ";
-        for (int k = 0; k < 3; ++k) append(text, mesh.faces(k, f), k < 2 ? ' ' : '\n');
+        for (int k = 0; k < 3; ++k) append_number(text, mesh.faces(k, f), k < 2 ? ' ' : '\n');
     }
     write_file(path, text);
 }

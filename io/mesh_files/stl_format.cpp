@@ -9,6 +9,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/byte_cursor.hpp"
+#include "io/files/number_text.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/mesh_files/corner_welder.hpp"
 #include "io/mesh_files/lost_digits.hpp"
@@ -29,12 +30,15 @@ using Facet = std::array<Eigen::Vector3d, 3>;
 /// Numbers the corners of facets. Facets with two equal corners wait until all others have their numbers.
 class FacetCollector {
   public:
+    /// Coordinates up to `negligible` count as 0.
+    explicit FacetCollector(double negligible) : negligible_(negligible), welder_(negligible) {}
+
     /// False if there are more than a mesh may have.
     [[nodiscard]] bool add(const Facet& facet) {
         if (std::ssize(corners_) + 3 > most_corners) return false;
-        const bool has_equal_corners = is_same_position(facet[0], facet[1]) ||
-                                       is_same_position(facet[1], facet[2]) ||
-                                       is_same_position(facet[2], facet[0]);
+        const bool has_equal_corners = is_same_position(facet[0], facet[1], negligible_) ||
+                                       is_same_position(facet[1], facet[2], negligible_) ||
+                                       is_same_position(facet[2], facet[0], negligible_);
         if (has_equal_corners) waiting_.push_back({corners_.size(), facet});
         for (const Eigen::Vector3d& corner : facet)
             corners_.push_back(has_equal_corners ? -1 : welder_.number_of(corner));
@@ -63,6 +67,7 @@ class FacetCollector {
         std::size_t first_corner;
         Facet facet;
     };
+    double negligible_;
     std::vector<int> corners_;
     std::vector<WaitingFacet> waiting_;
     CornerWelder welder_;
@@ -83,10 +88,10 @@ bool begins_with(std::string_view word, std::string_view lower_case) {
 class StlTextReader {
   public:
     /// comment: as of TextCursor; the names of solids may have any sign, so that most files have none.
-    StlTextReader(std::string_view bytes, const std::string& path, char comment)
-        : cursor_(bytes, path, comment), path_(path) {}
+    StlTextReader(std::string_view bytes, const std::string& path, char comment, double negligible)
+        : cursor_(bytes, path, comment), path_(path), facets_(negligible) {}
 
-    ParsedMesh run() {
+    PolygonMesh run() {
         bool is_inside = false;
         std::string_view word = cursor_.word_on_any_line();
         for (; !word.empty(); word = cursor_.word_on_any_line()) {
@@ -110,8 +115,10 @@ class StlTextReader {
         if (!word.empty())
             warn("the file goes on after 'endsolid'; what follows, from " + in_quotes(word) +
                  " on, is left out");
-        return {facets_.finish(), std::move(warnings_)};
+        return facets_.finish();
     }
+
+    std::vector<std::string> take_warnings() { return std::move(warnings_); }
 
   private:
     /// Of the facet at hand.
@@ -203,8 +210,9 @@ class StlTextReader {
 };
 
 /// The caller has seen to it that the bytes of all facets are there.
-PolygonMesh read_facets(std::string_view bytes, std::size_t facet_count, const std::string& path) {
-    FacetCollector facets;
+PolygonMesh read_facets(std::string_view bytes, std::size_t facet_count, const std::string& path,
+                        double negligible) {
+    FacetCollector facets(negligible);
     facets.expect(facet_count);
     ByteCursor cursor(bytes, header_bytes, false);
     for (std::size_t f = 0; f < facet_count; ++f) {
@@ -249,7 +257,8 @@ ParsedMesh read_binary(std::string_view bytes, const std::string& path) {
                                          " of the " + std::to_string(promised) +
                                          " facets its header promises; export the mesh again");
     }
-    ParsedMesh parsed{read_facets(bytes, facets, path), {}};
+    ParsedMesh parsed{
+        read_welded([&](double negligible) { return read_facets(bytes, facets, path, negligible); }), {}};
     if (facets != promised) {
         parsed.warnings.push_back(path + ": the header says " + std::to_string(promised) +
                                   " facets; by the size of the file there are " + std::to_string(facets));
@@ -272,6 +281,51 @@ bool is_text(std::string_view bytes) {
     });
 }
 
+ParsedMesh read_text(std::string_view bytes, const std::string& path, char comment) {
+    ParsedMesh parsed;
+    parsed.mesh = read_welded([&](double negligible) {
+        StlTextReader reader(bytes, path, comment, negligible);
+        PolygonMesh mesh = reader.run();
+        parsed.warnings = reader.take_warnings();
+        return mesh;
+    });
+    return parsed;
+}
+
+/// Of length 1; 0 for a facet without area.
+Eigen::Vector3d normal_of(const Facet& facet) {
+    const Eigen::Vector3d u = (facet[1] - facet[0]).stableNormalized();
+    return u.cross((facet[2] - facet[0]).stableNormalized()).stableNormalized();
+}
+
+std::string facet_bytes_of(const std::vector<Facet>& facets) {
+    std::string bytes(header_bytes - sizeof(std::uint32_t), ' ');
+    append_little_endian(bytes, static_cast<std::uint32_t>(facets.size()));
+    for (const Facet& facet : facets) {
+        for (const double value : normal_of(facet)) append_little_endian(bytes, static_cast<float>(value));
+        for (const Eigen::Vector3d& corner : facet) {
+            for (const double value : corner) append_little_endian(bytes, static_cast<float>(value));
+        }
+        append_little_endian(bytes, std::uint16_t{0});
+    }
+    return bytes;
+}
+
+std::string facet_text(const std::vector<Facet>& facets) {
+    std::string text = "solid coseg\n";
+    for (const Facet& facet : facets) {
+        text += "facet normal ";
+        append_point(text, normal_of(facet));
+        text += "outer loop\n";
+        for (const Eigen::Vector3d& corner : facet) {
+            text += "vertex ";
+            append_point(text, corner);
+        }
+        text += "endloop\nendfacet\n";
+    }
+    return text + "endsolid coseg\n";
+}
+
 }  // namespace
 
 ParsedMesh read_stl(std::string_view bytes, const std::string& path) {
@@ -282,7 +336,7 @@ ParsedMesh read_stl(std::string_view bytes, const std::string& path) {
     if (is_text(bytes)) {
         const std::string_view first = TextCursor(bytes, path, 0).word_on_any_line();
         const char comment = first.starts_with('#') ? '#' : '\0';
-        if (comment != 0 || begins_with(first, "solid")) return StlTextReader(bytes, path, comment).run();
+        if (comment != 0 || begins_with(first, "solid")) return read_text(bytes, path, comment);
         throw Error(ExitCode::input, path + ": the file is text, but begins with " + in_quotes(first) +
                                          " and not with 'solid' as an STL file does; export the mesh again");
     }
@@ -293,20 +347,12 @@ ParsedMesh read_stl(std::string_view bytes, const std::string& path) {
 
 void write_stl(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) {
     parts_of(arrays, mesh.face_count(), path);
-    const std::vector<FaceTriangle> triangles = face_triangles(mesh);
-    std::string bytes(header_bytes - sizeof(std::uint32_t), ' ');
-    append_little_endian(bytes, static_cast<std::uint32_t>(triangles.size()));
-    for (const FaceTriangle& triangle : triangles) {
-        Facet facet;
-        for (std::size_t k = 0; k < facet.size(); ++k) facet[k] = mesh.vertices[at(triangle.vertices[k])];
-        const Eigen::Vector3d normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]).normalized();
-        for (const double value : normal) append_little_endian(bytes, static_cast<float>(value));
-        for (const Eigen::Vector3d& corner : facet) {
-            for (const double value : corner) append_little_endian(bytes, static_cast<float>(value));
-        }
-        append_little_endian(bytes, std::uint16_t{0});
+    std::vector<Facet> facets;
+    for (const FaceTriangle& triangle : face_triangles(mesh)) {
+        const auto corner = [&](std::size_t k) { return mesh.vertices[at(triangle.vertices[k])]; };
+        facets.push_back({corner(0), corner(1), corner(2)});
     }
-    write_file(path, bytes);
+    write_file(path, lost_digits(mesh) ? facet_text(facets) : facet_bytes_of(facets));
 }
 
 }  // namespace coseg

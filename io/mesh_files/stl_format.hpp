@@ -20,8 +20,9 @@ namespace coseg {
 ParsedMesh read_stl(std::string_view bytes, const std::string& path);
 
 /// Writes binary STL: triangles in single precision with their normals, without labels, of which STL holds
-/// none. Polygons are cut into triangles, and faces of fewer than three corners are left out. Error(output)
-/// as atomic_file.hpp, Error(internal) as parts_of.
+/// none. Where single precision would lose digits that the edges need (lost_digits.hpp), it is ASCII STL with
+/// all digits. Polygons are cut into triangles, and faces of fewer than three corners are left out.
+/// Error(output) as atomic_file.hpp, Error(internal) as parts_of.
 void write_stl(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays);
 
 }  // namespace coseg

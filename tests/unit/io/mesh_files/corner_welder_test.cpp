@@ -31,6 +31,15 @@ TEST(CornerWelder, ZerosOfEitherSignAndTinyNumbersAreOne) {
     EXPECT_FALSE(is_same_position({0, 0, 0}, {0, 0, 1e-30}));
 }
 
+TEST(CornerWelder, OfTinyShapesNeglectsNothing) {
+    CornerWelder welder(0.0);
+    EXPECT_EQ(welder.number_of({0.0, 1e-200, 0.0}), 0);
+    EXPECT_EQ(welder.number_of({-0.0, 1e-200, 0.0}), 0);
+    EXPECT_EQ(welder.number_of({0.0, 2e-200, 0.0}), 1);
+    EXPECT_TRUE(is_tiny({{0, 0, 0}, {0, 1e-31, 0}}));
+    EXPECT_FALSE(is_tiny({{0, 0, 0}, {0, -1e-29, 0}}));
+}
+
 TEST(CornerWelder, AgreesWithAnOrderedMapOnManyPositions) {
     CornerWelder welder;
     std::map<std::array<double, 3>, int> numbers;
