@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <set>
+#include <iterator>
 #include <vector>
 
 #include "io/files/atomic_file.hpp"
@@ -73,21 +73,16 @@ class ObjReader {
         mesh_.offsets.push_back(static_cast<int>(mesh_.corners.size()));
     }
 
-    /// Some exporters write a triangle as a quadrangle that names a vertex twice. A face of three different
-    /// vertices or more names each of them once, where it first stood; one of fewer keeps its corners as they
-    /// are.
+    /// Some exporters write a triangle as a quadrangle that names a vertex twice in a row, or as its last
+    /// corner and its first: it counts once then, unless fewer than three corners are left. Other repetitions
+    /// stay, as they lead to a hole of the face and back.
     void drop_repeated_corners() {
         const auto begin = mesh_.corners.begin() + mesh_.offsets.back();
-        sorted_.assign(begin, mesh_.corners.end());
-        std::sort(sorted_.begin(), sorted_.end());
-        const auto different = std::unique(sorted_.begin(), sorted_.end()) - sorted_.begin();
-        if (different < 3 || different == mesh_.corners.end() - begin) return;
-        std::set<int> seen;
-        auto kept = begin;
-        for (auto corner = begin; corner != mesh_.corners.end(); ++corner) {
-            if (seen.insert(*corner).second) *kept++ = *corner;
-        }
-        mesh_.corners.erase(kept, mesh_.corners.end());
+        ring_.clear();
+        std::unique_copy(begin, mesh_.corners.end(), std::back_inserter(ring_));
+        while (ring_.size() > 1 && ring_.back() == ring_.front()) ring_.pop_back();
+        if (ring_.size() < 3) return;
+        mesh_.corners.erase(std::copy(ring_.begin(), ring_.end(), begin), mesh_.corners.end());
     }
 
     /// Vertices are counted from 1, or from -1 backwards. A face may come before its vertices, so that too
@@ -115,7 +110,7 @@ class ObjReader {
     const std::string& path_;
     PolygonMesh mesh_;
     UnusableVertices unusable_;
-    std::vector<int> sorted_;  ///< the different corners of the face at hand
+    std::vector<int> ring_;  ///< the corners of the face at hand without those that repeat the one before
     std::int64_t highest_index_ = -1;
     std::int64_t face_of_highest_index_ = 0;
 };

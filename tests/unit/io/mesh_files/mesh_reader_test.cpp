@@ -172,13 +172,13 @@ TEST(MeshReader, FacesThatRepeatAVertexKeepTheirPlace) {
 }
 
 /// Formats differ here: only OBJ faces of three different vertices or more lose their repeats.
-TEST(MeshReader, ObjFacesNameAVertexOnce) {
+TEST(MeshReader, ObjFacesNameAVertexOnceInARow) {
     const TemporaryFolder folder;
     const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
     const PolygonMesh obj =
         read_mesh(folder.file("a.obj", square + "f 1 2 3 3\nf 1 3 1 4 3\nf 1 2 2 1\nf 1 2 3 4\n"));
-    EXPECT_EQ(obj.offsets, (std::vector<int>{0, 3, 6, 10, 14}));
-    EXPECT_EQ(obj.corners, (std::vector<int>{0, 1, 2, 0, 2, 3, 0, 1, 1, 0, 0, 1, 2, 3}));
+    EXPECT_EQ(obj.offsets, (std::vector<int>{0, 3, 8, 12, 16}));
+    EXPECT_EQ(obj.corners, (std::vector<int>{0, 1, 2, 0, 2, 0, 3, 2, 0, 1, 1, 0, 0, 1, 2, 3}));
     const PolygonMesh off =
         read_mesh(folder.file("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 2\n"));
     EXPECT_EQ(off.corners, (std::vector<int>{0, 1, 2, 2}));

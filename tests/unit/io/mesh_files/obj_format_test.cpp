@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
+#include "src/base/index.hpp"
+#include "src/mesh/face_triangles.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/tetrahedron.hpp"
 
@@ -72,6 +75,34 @@ TEST(ObjFormat, TextWithoutVerticesAndFacesIsNoObj) {
 TEST(ObjFormat, FacesOfNoCornersKeepTheirPlace) {
     EXPECT_EQ(read_obj(obj_points + "f\nf 1 2 3\nf # none\n", "a.obj").mesh.offsets,
               (std::vector<int>{0, 0, 3, 3}));
+}
+
+TEST(ObjFormat, VerticesNamedTwiceInARowCountOnce) {
+    const auto corners = [](const std::string& face) {
+        return read_obj(obj_points + face, "a.obj").mesh.corners;
+    };
+    for (const std::string face : {"f 1 2 2 3\n", "f 1 1 2 3 1\n", "f 1 2 3 3 3 1 1\n"})
+        EXPECT_EQ(corners(face), (std::vector<int>{0, 1, 2})) << face;
+    EXPECT_EQ(corners("f 1 2 2\n"), (std::vector<int>{0, 1, 1}));
+    EXPECT_EQ(corners("f 1 1 1\n"), (std::vector<int>{0, 0, 0}));
+}
+
+TEST(ObjFormat, AFaceMayLeadAroundAHole) {
+    // A square of 4 x 4 with a hole of 2 x 2, which a cut from vertex 1 to vertex 5 joins to the outside.
+    const PolygonMesh mesh = read_obj(
+                                 "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nv -1 -1 0\nv -1 1 0\nv 1 1 "
+                                 "0\nv 1 -1 0\nf 1 2 3 4 1 5 6 7 8 5\n",
+                                 "a.obj")
+                                 .mesh;
+    EXPECT_EQ(mesh.corners, (std::vector<int>{0, 1, 2, 3, 0, 4, 5, 6, 7, 4}));
+    double area = 0.0;
+    for (const FaceTriangle& triangle : face_triangles(mesh)) {
+        const auto corner = [&](std::size_t k) { return mesh.vertices[at(triangle.vertices[k])]; };
+        const double part = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).z();
+        EXPECT_GE(part, 0.0);
+        area += part;
+    }
+    EXPECT_DOUBLE_EQ(area, 12.0);
 }
 
 }  // namespace
