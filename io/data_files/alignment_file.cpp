@@ -81,7 +81,7 @@ std::string alignment_text(const AlignmentFile& alignment) {
 
 AlignmentFile read_alignment(const std::string& path) {
     try {
-        const Json json = Json::parse(read_file(path));
+        const Json json = Json::parse(read_regular_file(path));
         if (json.at("format").get<std::string>() != alignment_format)
             throw Error(ExitCode::input, path + ": is not an alignment of this version of coseg");
         return file_of(json, path);

@@ -324,7 +324,7 @@ std::vector<Correction> csv_constraints(const std::string& path, std::string_vie
 }  // namespace
 
 CorrectionFile read_corrections(const std::string& path) {
-    const Json json = parsed_object(path, read_file(path), corrections_format);
+    const Json json = parsed_object(path, utf8_text(read_file(path)), corrections_format);
     CorrectionFile file;
     if (!json.contains("run") || !json["run"].is_string())
         refuse_file(path + ": \"run\", the hash of the run, is missing");

@@ -163,7 +163,7 @@ Eigen::MatrixXf parse_npy_features(std::string_view bytes, const std::string& pa
 }
 
 Eigen::MatrixXf read_face_features(const std::string& path, int faces) {
-    if (fs::path(path).extension() == ".npy") return parse_npy_features(read_file(path), path, faces);
+    if (fs::path(path).extension() == ".npy") return parse_npy_features(read_regular_file(path), path, faces);
     Eigen::MatrixXf features = read_hdf5_features(path, faces);
     check_finite(features, path);
     return features;

@@ -1,23 +1,41 @@
 #include "io/data_files/label_file.hpp"
 
-#include <charconv>
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/files/number_text.hpp"
 #include "io/files/text_cursor.hpp"
+#include "io/files/text_encoding.hpp"
+#include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {
 
+std::vector<std::string> label_file_names(const std::string& folder) {
+    namespace fs = std::filesystem;
+    std::error_code cause;
+    std::vector<std::string> names;
+    for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end; entry.increment(cause)) {
+        const std::string name = entry->path().stem().string();
+        if (entry->path().extension() == label_suffix && !name.starts_with('.')) names.push_back(name);
+    }
+    if (cause) throw Error(ExitCode::input, folder + ": the folder cannot be read (" + cause.message() + ")");
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 std::vector<int> read_labels(const std::string& path, int expected_count) {
-    return parse_labels(read_file(path), path, expected_count);
+    return parse_labels(read_regular_file(path), path, expected_count);
 }
 
 std::vector<int> parse_labels(std::string_view bytes, const std::string& path, int expected_count) {
-    TextCursor cursor(bytes, path, 0);
+    const std::string text = utf8_text(std::string(bytes));
+    TextCursor cursor(text, path, 0);
     std::vector<int> labels;
     while (cursor.next_line()) {
         const std::string_view word = cursor.word();

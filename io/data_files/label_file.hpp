@@ -7,9 +7,17 @@
 
 namespace coseg {
 
-/// Reads a label file; blank lines are skipped. Labels may be any int. Throws Error(input) naming path and
-/// line if a line is not one integer. If expected_count >= 0 and the file has another number of labels, the
-/// error names path, last line and both counts.
+/// What the name of a label file ends in.
+inline constexpr const char* label_suffix = ".seg";
+
+/// The names NAME of all label files NAME.seg in the folder, sorted, but for hidden ones (.NAME.seg), which
+/// are what macOS leaves beside a file. Throws Error(input) naming the folder if it cannot be read.
+std::vector<std::string> label_file_names(const std::string& folder);
+
+/// Reads a label file in UTF-8 or UTF-16; blank lines are skipped. Labels may be any int. Throws
+/// Error(input) naming the path if it is no regular file, and also the line if that is not one integer. If
+/// expected_count >= 0 and the file has another number of labels, the error names path, last line and both
+/// counts.
 std::vector<int> read_labels(const std::string& path, int expected_count = -1);
 
 /// The labels that stand in the bytes of a label file; `path` is only for the errors, which are those of

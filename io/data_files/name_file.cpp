@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "io/files/file_contents.hpp"
 #include "io/files/text_cursor.hpp"
+#include "io/files/text_encoding.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -44,10 +46,8 @@ std::string joined(const std::vector<std::string>& words, std::size_t begin) {
     return text;
 }
 
-}  // namespace
-
-LabelNames read_names(const std::string& path) {
-    const std::vector<NamedLine> lines = lines_with_words(read_file(path), path);
+LabelNames parse_names(std::string bytes, const std::string& path) {
+    const std::vector<NamedLine> lines = lines_with_words(utf8_text(std::move(bytes)), path);
     bool numbered = true;
     for (const NamedLine& line : lines) numbered = numbered && leading_label(line) >= 0;
     LabelNames names;
@@ -59,5 +59,11 @@ LabelNames read_names(const std::string& path) {
     }
     return names;
 }
+
+}  // namespace
+
+LabelNames read_names(const std::string& path) { return parse_names(read_file(path), path); }
+
+LabelNames read_found_names(const std::string& path) { return parse_names(read_regular_file(path), path); }
 
 }  // namespace coseg

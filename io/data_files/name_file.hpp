@@ -11,9 +11,13 @@ namespace coseg {
 using LabelNames = std::map<int, std::string>;
 
 /// If every line begins with a number of at least 0, followed by a name, the number is the label. Otherwise
-/// the lines are the labels 0, 1, ... in their order. Blank lines are skipped, and white space around a name
-/// is not part of it. Throws Error(input) naming the path if it cannot be read or has no name, and the line
-/// if a label is named twice.
+/// the lines are the labels 0, 1, ... in their order. Blank lines are skipped, and white space around a
+/// name is not part of it. The text is in UTF-8 or UTF-16. Throws Error(input) naming the path if it cannot
+/// be read or has no name, and the line if a label is named twice.
 LabelNames read_names(const std::string& path);
+
+/// The same for a file that was found in a folder and not named by the user: a pipe or a device there is
+/// refused with Error(input), as reading it could wait for ever.
+LabelNames read_found_names(const std::string& path);
 
 }  // namespace coseg

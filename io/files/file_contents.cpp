@@ -44,9 +44,13 @@ std::string other_than_a_file(const std::string& path) {
 
 }  // namespace
 
-std::string read_regular_file(const std::string& path) {
+void require_regular_file(const std::string& path) {
     if (const std::string other = other_than_a_file(path); !other.empty())
         throw Error(ExitCode::input, path + ": " + other);
+}
+
+std::string read_regular_file(const std::string& path) {
+    require_regular_file(path);
     return read_file(path);
 }
 

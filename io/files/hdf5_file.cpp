@@ -17,6 +17,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/content_hash.hpp"
+#include "io/files/file_contents.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -154,6 +155,7 @@ bool read_first_line(std::ifstream& file, Expectation& expected) {
 }
 
 std::ifstream opened(const std::string& path) {
+    require_regular_file(path);
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     file.peek();

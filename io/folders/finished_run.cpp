@@ -80,7 +80,7 @@ FinishedRun run_of(const std::string& folder, const Json& report) {
 
 void add_if_changed(std::vector<std::string>& changed, const std::string& path, const std::string& checksum) {
     if (checksum.empty() || !std::filesystem::exists(path)) return;
-    if (hash_bytes(read_file(path)).hex() != checksum) changed.push_back(path);
+    if (hash_bytes(read_regular_file(path)).hex() != checksum) changed.push_back(path);
 }
 
 FinishedRun checked_run_of(const std::string& folder, const Json& report) {
@@ -106,7 +106,7 @@ FinishedRun read_finished_run(const std::string& folder) {
             "'" + folder + "' holds no report.json; name the folder that coseg run was given with --out");
     }
     try {
-        const std::string text = read_file(path);
+        const std::string text = read_regular_file(path);
         const Json report = Json::parse(text);
         if (!report.at("format").get<std::string>().starts_with("coseg report"))
             throw Error(ExitCode::input, path + ": is not a report of coseg run");

@@ -37,7 +37,10 @@ std::string absolute_folder(const std::string& directory) {
 }
 
 bool is_marked(const std::string& path) {
-    std::ifstream file(path + "/" + mark_name);
+    const std::string mark = path + "/" + mark_name;
+    std::error_code ignored;
+    if (!fs::is_regular_file(mark, ignored)) return false;  // reading a pipe would wait for ever
+    std::ifstream file(mark);
     std::string line;
     return std::getline(file, line) && line + "\n" == mark_text;
 }

@@ -50,7 +50,7 @@ LabelNames chosen_names(const Comm& world, const RenderOptions& options) {
         if (!options.names.empty()) {
             names = read_names(options.names);
         } else if (!options.input.truth.empty() && std::filesystem::exists(beside)) {
-            names = read_names(beside);
+            names = read_found_names(beside);
         }
     });
     return names;

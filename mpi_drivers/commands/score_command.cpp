@@ -38,22 +38,13 @@ struct ScoreInput {
 };
 
 std::string label_path(const std::string& folder, const std::string& name) {
-    return (fs::path(folder) / (name + ".seg")).string();
+    return (fs::path(folder) / (name + label_suffix)).string();
 }
 
 void require_folder(const std::string& folder, const std::string& option) {
     if (fs::is_directory(folder)) return;
     throw Error(ExitCode::input, "'" + folder + "' is not a folder; " + option +
                                      " takes the folder that holds one NAME.seg for each mesh NAME.");
-}
-
-std::vector<std::string> label_names(const std::string& folder) {
-    std::vector<std::string> names;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        if (entry.path().extension() == ".seg") names.push_back(entry.path().stem().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
 }
 
 /// A shape without a label file is not read: it may be a mesh that the segmentation had to set aside.
@@ -81,7 +72,7 @@ ScoreInput read_input(const ScoreOptions& options) {
     require_folder(options.labels_folder, "--labels");
     ScoreInput input;
     double bounds = 0.0;
-    input.truth_without_mesh = label_names(options.truth_folder);
+    input.truth_without_mesh = label_file_names(options.truth_folder);
     for (const MeshEntry& mesh : expand_mesh_list(options.meshes)) {
         if (std::erase(input.truth_without_mesh, mesh.name) == 0) {
             input.meshes_without_truth.push_back(mesh.name);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/data_files/label_file.hpp"
+#include "io/files/file_contents.hpp"
 #include "io/folders/state_folder.hpp"
 #include "solvers/partition/part_confidence.hpp"
 #include "src/base/error.hpp"
@@ -79,6 +80,7 @@ EditSession::EditSession(const Comm& comm, const CorrectionBase& base, std::uniq
     agree(comm_, [&] {
         if (!comm_.is_root()) return;
         file_.run = run;
+        require_regular_file(path_);
         if (std::filesystem::exists(path_)) file_ = read_corrections(path_);
         if (file_.run != run)
             throw Error(ExitCode::input, path_ +

@@ -57,7 +57,7 @@ std::map<std::string, Eigen::Matrix3d> rotations_of(const FinishedRun& run) {
 /// Reads labels of 0 .. count - 1, and notes the file if it has another checksum than the run's.
 std::vector<int> read_checked(LabelledMesh& shape, const std::string& path, const std::string& checksum,
                               int count) {
-    const std::string bytes = read_file(path);
+    const std::string bytes = read_regular_file(path);
     std::vector<int> labels = parse_labels(bytes, path, shape.mesh.face_count());
     const auto wrong =
         std::find_if(labels.begin(), labels.end(), [&](int label) { return label < 0 || label >= count; });

@@ -75,9 +75,9 @@ std::vector<std::string> names_of_parts(const Comm& comm, const FinishedRun& run
         if (!file.empty()) {
             names = read_names(file);
         } else if (fs::exists(in_run)) {
-            names = read_names(in_run);
+            names = read_found_names(in_run);
         } else if (!input.truth.empty() && fs::exists(beside_truth)) {
-            names = read_names(beside_truth);
+            names = read_found_names(beside_truth);
             are_of_labels = true;
         }
     });

@@ -2,9 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
+#include "io/files/file_contents.hpp"
+#include "io/files/text_encoding.hpp"
 #include "src/base/error.hpp"
 #include "src/parallel/record_exchange.hpp"
 
@@ -34,14 +35,19 @@ std::string joined(const std::vector<std::string>& values) {
     return text;
 }
 
-std::vector<CLI::ConfigItem> parsed(const std::string& path) {
-    std::ifstream file(path);
-    file.peek();  // a folder opens, but cannot be read
-    if (file.bad() || !file.is_open())
-        throw Error(ExitCode::usage, "--config: cannot read " + path + "; check the path");
-    file.clear();
+/// In UTF-8, whatever an editor saved.
+std::string config_text(const std::string& path) {
     try {
-        return CLI::ConfigTOML().from_config(file);
+        return utf8_text(read_file(path));
+    } catch (const Error&) {
+        throw Error(ExitCode::usage, "--config: cannot read " + path + "; check the path");
+    }
+}
+
+std::vector<CLI::ConfigItem> parsed(const std::string& path) {
+    std::istringstream text(config_text(path));
+    try {
+        return CLI::ConfigTOML().from_config(text);
     } catch (const std::exception& error) {
         throw Error(ExitCode::usage, "--config: " + path + " is neither TOML nor INI: " + error.what());
     }

@@ -1,7 +1,6 @@
 #include "mpi_drivers/partition/example_stage.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,9 +17,6 @@ namespace coseg {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr const char* label_suffix = ".seg";
 constexpr int most_parts = 1000;
 
 std::string label_path(const std::string& folder, const std::string& name) {
@@ -29,15 +25,9 @@ std::string label_path(const std::string& folder, const std::string& name) {
 
 /// The names of the shapes that FOLDER has labels of, sorted.
 std::vector<std::string> example_names(const std::string& folder) {
-    std::error_code failure;
-    std::vector<std::string> names;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
-        if (entry.path().extension() == label_suffix) names.push_back(entry.path().stem().string());
-    }
-    if (failure) throw Error(ExitCode::input, "--examples " + folder + ": " + failure.message());
+    std::vector<std::string> names = label_file_names(folder);
     if (names.empty())
         throw Error(ExitCode::input, "--examples " + folder + ": there is no label file NAME.seg in it");
-    std::sort(names.begin(), names.end());
     return names;
 }
 

@@ -102,9 +102,9 @@ void write_html_report(const Comm& comm, const FinishedInput& input, const std::
         "coseg: " + std::to_string(run.shapes.size()) + " shapes, " + std::to_string(run.parts) + " parts";
     agree(comm, [&] {
         if (!comm.is_root()) return;
-        page.report_json = read_file(report_path(input.folder));
+        page.report_json = read_regular_file(report_path(input.folder));
         const std::string sheet = input.folder + "/" + sheet_file(to_string(SheetColoring::parts));
-        if (std::filesystem::exists(sheet)) page.sheet_png = read_file(sheet);
+        if (std::filesystem::exists(sheet)) page.sheet_png = read_regular_file(sheet);
         write_report_page(out + "/report.html", page);
     });
 }

@@ -1,6 +1,7 @@
 #include "io/data_files/face_feature_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstring>
 #include <limits>
@@ -122,6 +123,17 @@ TEST(FaceFeatureFile, MayBeHdf5) {
     EXPECT_NE(
         error_of([&] { read_face_features(folder.path("b.h5"), 3); }).sentence.find("no dataset 'features'"),
         std::string::npos);
+}
+
+TEST(FaceFeatureFile, MayBeNoPipe) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.npy", "a.h5"}) {
+        const std::string path = folder.path(name);
+        ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+        const test::Caught caught = error_of([&] { read_face_features(path, 3); });
+        EXPECT_EQ(caught.code, ExitCode::input);
+        EXPECT_EQ(caught.sentence, path + ": is a pipe, not a file");
+    }
 }
 
 }  // namespace

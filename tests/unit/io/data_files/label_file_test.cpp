@@ -1,9 +1,11 @@
 #include "io/data_files/label_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "io/files/atomic_file.hpp"
 #include "tests/support/errors.hpp"
@@ -36,6 +38,38 @@ TEST(LabelFile, OtherLineEndsAndBlankLines) {
     const TemporaryFolder folder;
     EXPECT_EQ(read_labels(folder.file("a.seg", "1\r\n 2 \r\n\r\n3"), 3), (std::vector<int>{1, 2, 3}));
     EXPECT_EQ(read_labels(folder.file("b.seg", ""), 0), std::vector<int>{});
+}
+
+TEST(LabelFile, TextOfOtherEncodings) {
+    const TemporaryFolder folder;
+    std::string utf16 = "\xff\xfe";
+    for (const char c : std::string("1\r\n-1\r\n20\r\n")) utf16.append({c, '\0'});
+    for (const std::string& text : {utf16, utf16.substr(2),
+                                    std::string("\xEF\xBB\xBF"
+                                                "1\n-1\n20\n")})
+        EXPECT_EQ(read_labels(folder.file("a.seg", text), 3), (std::vector<int>{1, -1, 20}));
+}
+
+TEST(LabelFile, NamesOfAFolderWithoutHiddenFiles) {
+    const TemporaryFolder folder;
+    for (const char* name : {"b.seg", "a.b.seg", "._b.seg", ".seg", "c.txt"}) folder.file(name, "0\n");
+    EXPECT_EQ(label_file_names(folder.path()), (std::vector<std::string>{"a.b", "b"}));
+    const test::Caught caught = error_of([&] { label_file_names(folder.path("none")); });
+    EXPECT_EQ(caught.code, ExitCode::input);
+    EXPECT_TRUE(caught.sentence.starts_with(folder.path("none") + ": ")) << caught.sentence;
+}
+
+TEST(LabelFile, PipesAndDevicesInAFolderAreRefused) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo(folder.path("a.seg").c_str(), 0600), 0);
+    std::filesystem::create_symlink("/dev/zero", folder.path("b.seg"));
+    for (const auto& [name, words] :
+         {std::pair("a.seg", "is a pipe, not a file"), std::pair("b.seg", "is a device")}) {
+        const std::string path = folder.path(name);
+        const test::Caught caught = error_of([&] { read_labels(path, 3); });
+        EXPECT_EQ(caught.code, ExitCode::input);
+        EXPECT_TRUE(caught.sentence.starts_with(path + ": " + words)) << caught.sentence;
+    }
 }
 
 TEST(LabelFile, WrongCountNamesFileLineAndBothCounts) {

@@ -1,6 +1,10 @@
 #include "io/data_files/name_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <thread>
 
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -38,6 +42,32 @@ TEST(NameFile, BadFilesAreNamed) {
         EXPECT_EQ(caught.code, ExitCode::input) << path;
         EXPECT_NE(caught.sentence.find(path), std::string::npos) << caught.sentence;
     }
+}
+
+TEST(NameFile, TextOfOtherEncodings) {
+    const TemporaryFolder folder;
+    std::string utf16 = "\xff\xfe";
+    for (const char c : std::string("seat\r\nr\xfc"
+                                    "cken\r\n"))
+        utf16.append({c, '\0'});
+    for (const std::string& text : {utf16, std::string("\xEF\xBB\xBFseat\nr\xC3\xBC"
+                                                       "cken\n")})
+        EXPECT_EQ(read_names(folder.file("a.txt", text)), (LabelNames{{0, "seat"},
+                                                                      {1,
+                                                                       "r\xC3\xBC"
+                                                                       "cken"}}));
+}
+
+TEST(NameFile, APipeIsReadWhereItIsNamedAndRefusedWhereItIsFound) {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("names.txt");
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    const test::Caught caught = error_of([&] { read_found_names(path); });
+    EXPECT_EQ(caught.code, ExitCode::input);
+    EXPECT_EQ(caught.sentence, path + ": is a pipe, not a file");
+    std::thread writer([&] { std::ofstream(path) << "seat\n"; });
+    EXPECT_EQ(read_names(path), (LabelNames{{0, "seat"}}));
+    writer.join();
 }
 
 }  // namespace

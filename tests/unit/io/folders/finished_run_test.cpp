@@ -1,6 +1,7 @@
 #include "io/folders/finished_run.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "io/files/content_hash.hpp"
 #include "io/reports/report.hpp"
@@ -92,6 +93,15 @@ TEST(FinishedRun, RefusesNumbersThatCannotBe) {
         EXPECT_EQ(caught.code, ExitCode::input) << fresh;
         EXPECT_NE(caught.sentence.find("report.json: "), std::string::npos) << caught.sentence;
     }
+}
+
+TEST(FinishedRun, PipesInItsFolderAreRefused) {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("report.json");
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    const test::Caught caught = error_of([&] { read_finished_run(folder.path()); });
+    EXPECT_EQ(caught.code, ExitCode::input);
+    EXPECT_EQ(caught.sentence, path + ": is a pipe, not a file");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "io/folders/state_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -34,6 +35,12 @@ TEST(StateFolder, DoesNotTakeOtherFolders) {
     EXPECT_EQ(error_of([&] { StateFolder::open(folder.path()); }).code, ExitCode::input);
     EXPECT_EQ(error_of([&] { StateFolder::make(file); }).code, ExitCode::output);
     EXPECT_EQ(error_of([&] { StateFolder::make(""); }).code, ExitCode::usage);
+}
+
+TEST(StateFolder, ItsMarkMayBeNoPipe) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo(folder.path("coseg-state").c_str(), 0600), 0);
+    EXPECT_EQ(error_of([&] { StateFolder::open(folder.path()); }).code, ExitCode::input);
 }
 
 TEST(StateFolder, SpreadsMeshesOverSubfolders) {
