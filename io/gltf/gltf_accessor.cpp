@@ -11,6 +11,9 @@ namespace coseg {
 
 namespace {
 
+/// The largest element, of four components of four bytes.
+constexpr std::string_view zeros("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 16);
+
 [[noreturn]] void refuse_accessor(const GltfAsset& asset, const std::string& name, const std::string& what) {
     throw Error(ExitCode::input,
                 asset.path + ": the file is damaged: " + name + " " + what + "; export the mesh again");
@@ -81,16 +84,32 @@ std::uint32_t index_of(std::string_view bytes, int type) {
 
 }  // namespace
 
+bool has_elements(const GltfAccessor& accessor) { return accessor.view >= 0 || accessor.sparse.has_value(); }
+
+std::size_t most_elements(const GltfAsset& asset) {
+    constexpr std::size_t of_any_file = 3'000'000;
+    constexpr std::size_t per_byte = 64;
+    std::size_t bytes = 0;
+    for (const std::string_view buffer : asset.buffers) bytes += buffer.size();
+    return std::max(of_any_file, per_byte * bytes);
+}
+
 GltfElements::GltfElements(const GltfAsset& asset, int accessor)
     : accessor_(&asset.accessors[at(accessor)]),
       size_(at(accessor_->components) * component_size(accessor_->component_type)) {
     const std::string name = "accessors[" + std::to_string(accessor) + "]";
     if (accessor_->components == 0) refuse_accessor(asset, name, "holds matrices");
-    if (accessor_->view < 0) refuse_accessor(asset, name, "has no bufferView");
-    const std::size_t stride = asset.views[at(accessor_->view)].stride;
-    stride_ = stride == 0 ? size_ : stride;
-    bytes_ =
-        checked_bytes(asset, {accessor_->view, accessor_->offset, accessor_->count, size_, stride_}, name);
+    if (!has_elements(*accessor_)) refuse_accessor(asset, name, "has no bufferView");
+    if (accessor_->view >= 0) {
+        const std::size_t stride = asset.views[at(accessor_->view)].stride;
+        stride_ = stride == 0 ? size_ : stride;
+        bytes_ = checked_bytes(asset, {accessor_->view, accessor_->offset, accessor_->count, size_, stride_},
+                               name);
+    } else if (accessor_->count > most_elements(asset)) {
+        refuse_accessor(asset, name,
+                        "has " + std::to_string(accessor_->count) +
+                            " elements without bytes, too many for a file of its size");
+    }
     if (accessor_->sparse) read_sparse(asset, name);
 }
 
@@ -114,6 +133,7 @@ std::string_view GltfElements::bytes(std::size_t element) const {
     const auto found = std::lower_bound(replaced_.begin(), replaced_.end(), element);
     if (found != replaced_.end() && *found == element)
         return replacements_.substr(static_cast<std::size_t>(found - replaced_.begin()) * size_, size_);
+    if (accessor_->view < 0) return zeros.substr(0, size_);
     return bytes_.substr(element * stride_, size_);
 }
 

@@ -10,12 +10,22 @@
 
 namespace coseg {
 
+/// Whether an accessor has bytes, or zeros that a sparse part replaces.
+bool has_elements(const GltfAccessor& accessor);
+
+/// The most elements that a file with buffers of this size may have without bytes of their own, or draw by
+/// drawing some of them many times over: 64 for each byte, and 3,000,000 in any file. More are no shape, but
+/// would fill the memory.
+std::size_t most_elements(const GltfAsset& asset);
+
 /// Elements 0 .. count() - 1. The constructor has seen to it that all of them lie inside the bytes of the
 /// file.
 class GltfElements {
   public:
-    /// Throws Error(input), a sentence that begins with "PATH: ", for an accessor without bytes of its own,
-    /// or that leads out of them, or whose sparse part is not in ascending order. `asset` must outlive it.
+    /// Without a buffer view, all are zeros but those that the sparse part replaces. Throws Error(input), a
+    /// sentence that begins with "PATH: ", for an accessor that has neither, leads out of its bytes, has more
+    /// elements without bytes than most_elements, or a sparse part that is not in ascending order. `asset`
+    /// must outlive it.
     GltfElements(const GltfAsset& asset, int accessor);
 
     [[nodiscard]] std::size_t count() const { return accessor_->count; }

@@ -196,7 +196,7 @@ class GltfCompaction {
         for (const int number : accessors) {
             old_accessors_.at(at(number));  // throws if it is not there
             const GltfAccessor& accessor = asset_.accessors[at(number)];
-            if (accessor.view < 0 || accessor.components == 0) use.can_be_taken_apart = false;
+            if (!has_elements(accessor) || accessor.components == 0) use.can_be_taken_apart = false;
             count = std::min(count, accessor.count);
         }
         if (!primitive.contains("indices")) use.can_be_taken_apart = false;

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "io/files/byte_cursor.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/files/text_cursor.hpp"
+#include "io/files/text_encoding.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 
@@ -192,6 +194,7 @@ std::string file_of_uri(const std::string& uri, const std::string& path) {
 }
 
 std::string with_buffer_files(std::string bytes, const std::string& path) {
+    if (!is_glb(bytes)) bytes = utf8_text(std::move(bytes));
     const GltfContainer container = split_gltf(bytes, path);
     check_json_depth(container.json, path);
     const std::vector<std::string> uris = buffer_uris(container.json);

@@ -29,8 +29,9 @@ GltfContainer split_gltf(std::string_view bytes, const std::string& path);
 void check_json_depth(std::string_view json, const std::string& path);
 
 /// The bytes of the file at `path` together with those of the files that its buffers name: a container with
-/// a chunk of our own for each such file. The same bytes if there is none, or if they are no glTF. Throws
-/// Error(input) if such a file is not there, or does not lie beside the mesh or below its folder.
+/// a chunk of our own for each such file. The same bytes if there is none, or if they are no glTF; but JSON
+/// is in UTF-8 without a byte order mark afterwards, whatever it was before. Throws Error(input) if such a
+/// file is not there, or does not lie beside the mesh or below its folder.
 std::string with_buffer_files(std::string bytes, const std::string& path);
 
 /// The bytes of the file that `uri` names, relative to the folder of `path`. Throws as with_buffer_files.

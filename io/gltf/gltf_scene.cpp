@@ -23,7 +23,7 @@ bool is_drawn(const GltfPrimitive& primitive) { return primitive.mode >= GltfMod
 void check_primitive(const GltfAsset& asset, int mesh, int number) {
     const GltfPrimitive& primitive = asset.meshes[at(mesh)][at(number)];
     const std::string name = name_of_primitive(mesh, number);
-    const bool has_data = primitive.positions >= 0 && asset.accessors[at(primitive.positions)].view >= 0;
+    const bool has_data = primitive.positions >= 0 && has_elements(asset.accessors[at(primitive.positions)]);
     if (!has_data && !primitive.compression.empty()) {
         throw Error(ExitCode::input, asset.path + ": the mesh is compressed with " + primitive.compression +
                                          ", which is not read; save it without compression");

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
@@ -21,21 +22,21 @@ namespace coseg {
 
 namespace {
 
-/// A scene may draw a mesh many times over. A file that makes more corners than this of each of its bytes
-/// (and more than any file may) is no shape, but would fill the memory.
-constexpr std::size_t most_corners_per_byte = 64;
-constexpr std::size_t corners_of_any_file = 3'000'000;
-
+/// A scene may draw a mesh many times over.
 void check_corner_count(const GltfAsset& asset, const GltfScene& scene) {
-    std::size_t bytes = 0;
-    for (const std::string_view buffer : asset.buffers) bytes += buffer.size();
-    const std::size_t most = std::min(static_cast<std::size_t>(most_corners),
-                                      std::max(corners_of_any_file, most_corners_per_byte * bytes));
+    const std::size_t most = std::min(static_cast<std::size_t>(most_corners), most_elements(asset));
     std::size_t corners = 0;
     for (const GltfDraw& draw : scene.draws) {
         corners += 3 * most_triangles(asset, asset.meshes[at(draw.mesh)][at(draw.primitive)]);
         if (corners > most) throw Error(ExitCode::input, asset.path + ": " + too_many_corners);
     }
+}
+
+void refuse_scene_without_mesh(const GltfAsset& asset, const GltfScene& scene) {
+    if (!scene.draws.empty() || scene.passed_over > 0 || asset.meshes.empty()) return;
+    const std::string meshes = with_unit(static_cast<std::int64_t>(asset.meshes.size()), "mesh", "meshes");
+    throw Error(ExitCode::input, asset.path + ": the file holds " + meshes +
+                                     ", but no node of its scene draws one; export it with a node for each");
 }
 
 /// Makes one mesh of all draws of a scene.
@@ -147,6 +148,7 @@ ParsedMesh read_gltf(std::string_view bytes, const std::string& path) {
     const GltfContainer container = split_gltf(bytes, path);
     const GltfAsset asset = read_gltf_asset(container, path);
     const GltfScene scene = gltf_scene(asset);
+    refuse_scene_without_mesh(asset, scene);
     check_corner_count(asset, scene);
     const auto collected = [&](double negligible) {
         GltfCollector collector(asset, negligible);

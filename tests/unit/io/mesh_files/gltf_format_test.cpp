@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 
 #include "io/mesh_files/mesh_format.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
@@ -196,6 +197,58 @@ TEST(GltfFormat, PartsOfAPlainMeshAreNodesWithNames) {
     for (const char* name : {R"("name":"roof 1","extras":{"part":0,"piece":1})", R"("name":"roof 2")",
                              R"("name":"floor 1")", R"("name":"roof","extras":{"part":0},"children":[0,1])"})
         EXPECT_NE(pieces.find(name), std::string::npos) << name;
+}
+
+std::string in_utf16(const std::string& text) {
+    std::string bytes = "\xff\xfe";
+    for (const char c : text) bytes.append({c, '\0'});
+    return bytes;
+}
+
+TEST(GltfFormat, JsonInOtherEncodingsIsReadAndExported) {
+    const test::TemporaryFolder folder;
+    folder.file("data.bin", test::tetrahedron_bytes());
+    const std::string json =
+        with(tetrahedron_json, R"({"byteLength":72})", R"({"byteLength":72,"uri":"data.bin"})");
+    for (const std::string& text : {json, in_utf16(json), "\xEF\xBB\xBF" + json}) {
+        const std::string path = folder.file("a.gltf", text);
+        EXPECT_EQ(corners_of(read_mesh(path)), all_corners);
+        write_glb_like(folder.path("a.glb"), {path, mesh_file_bytes(path)}, {{{"part", {0, 0, 0, 0}}}, {}});
+        EXPECT_EQ(corners_of(read_mesh(folder.path("a.glb"))), all_corners);
+    }
+}
+
+/// The tetrahedron, of whose vertices only the three that are not 0 stand in the file.
+const std::string sparse_only =
+    with(tetrahedron_json, R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})",
+         R"({"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":3,)"
+         R"("indices":{"bufferView":1,"byteOffset":18,"componentType":5123},)"
+         R"("values":{"bufferView":0,"byteOffset":12}}})");
+
+TEST(GltfFormat, SparseElementsMayStandAmongZeros) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("a.glb", tetrahedron_glb(sparse_only));
+    EXPECT_EQ(corners_of(read_mesh(path)), all_corners);
+    for (const int last : {0, -1}) {  // the whole mesh, and a part alone with its own vertices
+        write_glb_like(folder.path("b.glb"), {path, mesh_file_bytes(path)},
+                       {{{"part", {0, 0, 0, last}}}, {}});
+        std::vector<Eigen::Vector3d> expected = all_corners;
+        if (last < 0) expected.resize(9);
+        EXPECT_EQ(corners_of(read_mesh(folder.path("b.glb"))), expected);
+    }
+    const std::string sentence =
+        refusal_of(tetrahedron_glb(with(sparse_only, R"("count":4)", R"("count":4000000)")));
+    EXPECT_NE(sentence.find("accessors[0] has 4000000 elements without bytes"), std::string::npos)
+        << sentence;
+}
+
+TEST(GltfFormat, ASceneThatDrawsNoMeshIsSaidToBeOne) {
+    for (const auto& [from, to] :
+         {std::pair(R"({"nodes":[0]})", R"({"nodes":[]})"), std::pair(R"([{"mesh":0}])", R"([{}])")}) {
+        const std::string sentence = refusal_of(tetrahedron_glb(with(tetrahedron_json, from, to)));
+        EXPECT_NE(sentence.find("holds 1 mesh, but no node of its scene draws one"), std::string::npos)
+            << sentence;
+    }
 }
 
 }  // namespace
