@@ -90,6 +90,8 @@ class MeshListExpander {
 
     void add_list(const std::string& list) {
         const std::string text = utf8_text(read_file(list));
+        if (text.find('\0') != std::string::npos)
+            fail(list + ": the list has zero bytes, as of find -print0; write one path a line");
         const std::size_t before = found_.size();
         int number = 0;
         for (std::size_t begin = 0; begin < text.size();) {

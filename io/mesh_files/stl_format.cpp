@@ -272,13 +272,21 @@ ParsedMesh read_binary(std::string_view bytes, const std::string& path) {
     return parsed;
 }
 
-/// Whether the bytes are text as far as the first facets of a binary file would reach, where zeros stand.
-bool is_text(std::string_view bytes) {
-    constexpr std::size_t looked_at = header_bytes + 4 * facet_bytes;
-    const std::string_view beginning = bytes.substr(0, looked_at);
-    return std::all_of(beginning.begin(), beginning.end(), [](char c) {
+bool has_no_control_characters(std::string_view bytes) {
+    return std::all_of(bytes.begin(), bytes.end(), [](char c) {
         return static_cast<unsigned char>(c) >= ' ' || (c >= '\t' && c <= '\r');
     });
+}
+
+/// Whether the bytes are text as far as the first facets of a binary file would reach, where zeros stand. The
+/// name of a solid may hold anything, if a facet in words follows it.
+bool is_text(std::string_view bytes) {
+    constexpr std::size_t looked_at = header_bytes + 4 * facet_bytes;
+    std::string_view beginning = bytes.substr(0, looked_at);
+    if (has_no_control_characters(beginning)) return true;
+    beginning.remove_prefix(std::min(beginning.find_first_of("\r\n"), beginning.size()));
+    return has_no_control_characters(beginning) &&
+           begins_with(TextCursor(beginning, {}, 0).word_on_any_line(), "facet");
 }
 
 ParsedMesh read_text(std::string_view bytes, const std::string& path, char comment) {

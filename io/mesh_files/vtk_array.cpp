@@ -127,7 +127,15 @@ class CompressedBlocks {
     const std::string& path_;
 };
 
+void refuse_other_compressors(const VtkArray& array, const VtkEncoding& encoding, const std::string& path) {
+    if (encoding.compressor.empty() || encoding.compressor == "vtkZLibDataCompressor") return;
+    fail_vtk(array, path,
+             "is compressed by " + in_quotes(encoding.compressor) +
+                 ", of which only vtkZLibDataCompressor is read; save the mesh uncompressed");
+}
+
 std::string bytes_of(const VtkArray& array, const VtkEncoding& encoding, const std::string& path) {
+    refuse_other_compressors(array, encoding, path);
     const bool is_appended = array.format == "appended";
     std::string inline_text;
     std::string_view text = encoding.appended;
@@ -143,7 +151,7 @@ std::string bytes_of(const VtkArray& array, const VtkEncoding& encoding, const s
         text = inline_text;
     }
     EncodedBytes source(text, !is_appended || encoding.has_base64_appended);
-    if (encoding.is_compressed) return CompressedBlocks(array, encoding, path).bytes_of(source);
+    if (!encoding.compressor.empty()) return CompressedBlocks(array, encoding, path).bytes_of(source);
     const std::uint64_t word = encoding.has_long_headers ? 8 : 4;
     const std::optional<std::string> header = source.peek(word);
     const std::uint64_t length = header ? lengths_of(*header, encoding).front() : 0;

@@ -13,7 +13,7 @@ namespace coseg {
 struct VtkEncoding {
     bool is_big_endian = false;
     bool has_long_headers = false;  ///< lengths have 64 bits, not 32
-    bool is_compressed = false;     ///< by zlib; of arrays that are no text
+    std::string compressor = {};    ///< of arrays that are no text; empty if they are not compressed
     bool has_base64_appended = false;
     std::string_view appended = {};  ///< the bytes or the base64 of the arrays behind the XML
 };
@@ -27,7 +27,8 @@ struct VtkArray {
 };
 
 /// All numbers of the array. Throws Error(input), a sentence that begins with "PATH: " and names the array,
-/// where it is cut short, holds what is no number, or is written in a way that is not known. Takes memory for
+/// where it is cut short, holds what is no number, or is written in a way that is not known, as by a
+/// compressor other than zlib. Takes memory for
 /// what is there, never for what a length promises.
 std::vector<double> vtk_reals(const VtkArray& array, const VtkEncoding& encoding, const std::string& path);
 

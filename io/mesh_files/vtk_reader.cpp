@@ -77,15 +77,11 @@ class VtkDocumentReader {
                          ", of which only PolyData is read; extract the surface and save it as VTP");
         const std::string_view lengths = tag.attribute("header_type", "UInt32");
         const std::string_view order = tag.attribute("byte_order", "LittleEndian");
-        const std::string_view compressor = tag.attribute("compressor");
         if (lengths != "UInt32" && lengths != "UInt64") refuse("header_type", lengths);
         if (order != "LittleEndian" && order != "BigEndian") refuse("byte_order", order);
-        if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-            cursor_.fail("arrays are compressed by " + in_quotes(compressor) +
-                         ", of which only vtkZLibDataCompressor is read; save the mesh uncompressed");
         document_.encoding.has_long_headers = lengths == "UInt64";
         document_.encoding.is_big_endian = order == "BigEndian";
-        document_.encoding.is_compressed = !compressor.empty();
+        document_.encoding.compressor = tag.attribute("compressor");
     }
 
     [[noreturn]] void refuse(const std::string& what, std::string_view value) const {

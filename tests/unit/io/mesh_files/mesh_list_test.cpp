@@ -131,6 +131,8 @@ TEST(MeshList, ErrorsNameThePath) {
                  {"'a'", folder.path("set/a.off"), folder.path("a.obj")});
     expect_error({folder.path("a.obj"), folder.path("a.obj")}, {"'a'"});
     expect_error({"@" + folder.path("none.txt")}, {folder.path("none.txt")});
+    expect_error({"@" + folder.file("l0", std::string("set/a.off\0a.obj\0", 16))},
+                 {folder.path("l0"), "zero bytes", "one path a line"});
     expect_error({"@" + folder.file("l1", "# nothing\n\n")}, {folder.path("l1"), "names no meshes"});
     expect_error({"@" + folder.file("l2", "\nset/a.off\nlost.off\n")},
                  {folder.path("l2") + ":3:", "lost.off"});

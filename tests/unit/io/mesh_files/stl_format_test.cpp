@@ -143,5 +143,14 @@ TEST(StlFormat, BinaryThatLostDigitsIsWarnedOf) {
     EXPECT_TRUE(warnings({1000, 1000, 0}, 1.0).empty());
 }
 
+TEST(StlFormat, TextWithAZeroByteInTheNameOfASolid) {
+    for (const std::string& name : {std::string("a\0b", 3), std::string("a\0\0\0", 4)})
+        expect_tetrahedron(read_stl(replaced(stl_text, "solid part\n", "solid " + name + "\n"), "a.stl"));
+    // A binary file that is cut short stays one, whatever its header begins with.
+    const std::string cut = binary("solid part\n", 5, tetrahedron(Eigen::Vector3d::Zero(), 1.0));
+    const std::string says = test::error_of([&] { read_stl(cut, "a.stl"); }).sentence;
+    EXPECT_NE(says.find("4 of the 5 facets"), std::string::npos) << says;
+}
+
 }  // namespace
 }  // namespace coseg

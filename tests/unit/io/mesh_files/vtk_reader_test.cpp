@@ -81,8 +81,10 @@ TEST(VtkReader, SentencesNameWhatIsWrong) {
     expect_says(document("byte_order=\"Middle\"", three_points, triangle),
                 "a.vtp:1: the byte_order is 'Middle'");
     expect_says(document("header_type=\"UInt8\"", three_points, triangle), "the header_type is 'UInt8'");
-    expect_says(document("compressor=\"vtkLZMADataCompressor\"", three_points, triangle),
-                "only vtkZLibDataCompressor is read");
+    expect_says(document("compressor=\"vtkLZMADataCompressor\"", three_points,
+                         "<DataArray type=\"Int32\" Name=\"offsets\" format=\"binary\">AAAA</DataArray>"),
+                "'offsets' of Polys is compressed by 'vtkLZMADataCompressor', of which only "
+                "vtkZLibDataCompressor is read");
     expect_says(document("", "0 0 0 1 0 0 0 1", triangle), "promises 3 points, but there are 8 coordinates");
     expect_says(document("", "0 0 0 1 0 0 0 1,5 0", triangle), "of Points has the value '1,5'");
     expect_says(document("", three_points, ""), "no array 'Polys/offsets'");
@@ -105,6 +107,11 @@ TEST(VtkReader, CoordinatesThatHaveLostDigitsAreWarnedOf) {
     const ParsedMesh parsed = read_vtp(bytes, "a.vtp");
     ASSERT_EQ(parsed.warnings.size(), 1U);
     EXPECT_TRUE(parsed.warnings[0].starts_with("a.vtp: ")) << parsed.warnings[0];
+}
+
+TEST(VtkReader, TextIsReadWhateverCompressesOtherArrays) {
+    const std::string lz4 = "compressor=\"vtkLZ4DataCompressor\"";
+    EXPECT_EQ(parse_mesh(document(lz4, three_points, triangle), "a.vtp").mesh.face_count(), 1);
 }
 
 }  // namespace
