@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/files/file_contents.hpp"
+#include "io/files/json_failure.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 
@@ -86,8 +87,8 @@ AlignmentFile read_alignment(const std::string& path) {
             throw Error(ExitCode::input, path + ": is not an alignment of this version of coseg");
         return file_of(json, path);
     } catch (const Json::exception& error) {
-        throw Error(ExitCode::input,
-                    path + ": cannot be read as an alignment (" + error.what() + "); run coseg run again");
+        throw Error(ExitCode::input, path + ": cannot be read as an alignment (" + json_failure(error) +
+                                         "); run coseg run again");
     }
 }
 

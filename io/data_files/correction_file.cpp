@@ -9,6 +9,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
+#include "io/files/json_failure.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/files/text_encoding.hpp"
 #include "src/base/error.hpp"
@@ -239,7 +240,7 @@ Json parsed_object(const std::string& path, std::string_view bytes, const char* 
     try {
         json = Json::parse(bytes);
     } catch (const Json::exception& error) {
-        refuse_file(path + ": is no JSON (" + error.what() + ")");
+        refuse_file(path + ": is no JSON (" + json_failure(error) + ")");
     }
     if (!json.is_object() || !json.contains("format") || json["format"] != format)
         refuse_file(path + ": is no file of " + std::string(format).substr(6) +
@@ -374,7 +375,7 @@ Correction parsed_correction(std::string_view json, const std::string& where) {
     try {
         parsed = Json::parse(json);
     } catch (const Json::exception& error) {
-        refuse_file(where + ": is no JSON (" + error.what() + ")");
+        refuse_file(where + ": is no JSON (" + json_failure(error) + ")");
     }
     return read_act(parsed, where);
 }

@@ -6,6 +6,7 @@
 
 #include "io/files/content_hash.hpp"
 #include "io/files/file_contents.hpp"
+#include "io/files/json_failure.hpp"
 #include "io/files/text_checksum.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
@@ -114,8 +115,8 @@ FinishedRun read_finished_run(const std::string& folder) {
         run.is_report_changed = !has_right_checksum(text);
         return run;
     } catch (const Json::exception& error) {
-        throw Error(ExitCode::input, path + ": cannot be read as a report of coseg run (" + error.what() +
-                                         "); run coseg run again");
+        throw Error(ExitCode::input, path + ": cannot be read as a report of coseg run (" +
+                                         json_failure(error) + "); run coseg run again");
     }
 }
 
