@@ -273,6 +273,50 @@ std::string trimmed(std::string_view text) {
     return std::string(text);
 }
 
+void skip_blanks(std::string_view& row) {
+    row.remove_prefix(std::min(row.find_first_not_of(" \t"), row.size()));
+}
+
+/// What stands between two quotation marks, the first of which is the next character; doubled marks are one.
+std::string take_quoted(std::string_view& row, const std::string& where) {
+    std::string cell;
+    while (true) {
+        row.remove_prefix(1);
+        const std::size_t mark = row.find('"');
+        if (mark == std::string_view::npos)
+            refuse_file(where + ": a cell begins with a quotation mark, but does not end with one");
+        cell += row.substr(0, mark);
+        row.remove_prefix(mark + 1);
+        if (!row.starts_with('"')) return cell;
+        cell += '"';
+    }
+}
+
+/// Takes a cell off a row, up to the comma behind it.
+std::string take_cell(std::string_view& row, const std::string& where) {
+    skip_blanks(row);
+    if (!row.starts_with('"')) {
+        const std::string_view cell = row.substr(0, row.find(','));
+        row.remove_prefix(cell.size());
+        return trimmed(cell);
+    }
+    std::string cell = take_quoted(row, where);
+    skip_blanks(row);
+    if (row.empty() || row.front() == ',') return cell;
+    refuse_file(where + ": " + in_quotes(row) +
+                " follows the end of a quoted cell; write a quotation mark inside of it twice");
+}
+
+/// Source: RFC 4180. Deviates: blanks around a cell do not count, and a quoted cell ends on its line.
+std::vector<std::string> csv_cells(std::string_view row, const std::string& where) {
+    std::vector<std::string> cells{take_cell(row, where)};
+    while (!row.empty()) {
+        row.remove_prefix(1);
+        cells.push_back(take_cell(row, where));
+    }
+    return cells;
+}
+
 int csv_number(const std::string& text, const std::string& where, int most) {
     const std::optional<int> number = whole_number(text);
     if (!number || *number < 0 || *number > most)
@@ -315,9 +359,8 @@ std::vector<Correction> csv_constraints(const std::string& path, std::string_vie
         ++line;
         const std::string text = trimmed(row);
         if (text.empty() || text.front() == '#') continue;
-        std::vector<std::string> cells;
-        for (const std::string_view cell : pieces_of(text, ',')) cells.push_back(trimmed(cell));
-        constraints.push_back(csv_row(cells, path + ":" + std::to_string(line)));
+        const std::string where = path + ":" + std::to_string(line);
+        constraints.push_back(csv_row(csv_cells(text, where), where));
     }
     return constraints;
 }

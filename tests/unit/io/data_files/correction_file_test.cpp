@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "io/files/atomic_file.hpp"
 #include "src/base/error.hpp"
 #include "tests/support/errors.hpp"
@@ -93,6 +96,36 @@ TEST(CorrectionFile, ReadsTheSameConstraintsFromCsvAndFromJson) {
         json,
         R"({"format": "coseg constraints", "version": 1, "constraints": [{"act": "split", "part": 1}]})");
     EXPECT_THROW(read_constraints(json), Error);
+}
+
+TEST(CorrectionFile, CellsOfCsvMayStandInQuotes) {
+    const test::TemporaryFolder folder;
+    const auto read = [&](const std::string& row) {
+        return read_constraints(folder.file("c.csv", row)).at(0);
+    };
+    const Correction link = read("must-link,\"a,b\",3, \"q\"\"uo,te\" ,4\r\n");
+    EXPECT_EQ(link.first.shape, "a,b");
+    EXPECT_EQ(link.second.shape, "q\"uo,te");
+    EXPECT_EQ(link.second.face, 4);
+    EXPECT_EQ(read("\"absent\",\"1\",\"\"\"b\"\"\"").shape, "\"b\"");
+    EXPECT_EQ(read("name,0,5\" pipe").text, "5\" pipe");
+    EXPECT_EQ(read("absent,1,\" b \"").shape, " b ");
+    for (const auto& [row, words] :
+         {std::pair("absent,1,\"b", "does not end with one"), std::pair("absent,1,\"b\"c", "'c' follows"),
+          std::pair("absent,1,\"b\",", "such a row is absent,PART,SHAPE")}) {
+        const std::string says = test::error_of([&, text = row] { read(text); }).sentence;
+        EXPECT_NE(says.find(words), std::string::npos) << says;
+        EXPECT_NE(says.find("c.csv:1:"), std::string::npos) << says;
+    }
+}
+
+TEST(CorrectionFile, TextThatIsCutOffIsNotRepeatedWhole) {
+    const test::TemporaryFolder folder;
+    const std::string path =
+        folder.file("c.json", "{\"format\": \"coseg corrections\",\n\"run\": \"" + std::string(5000, 'x'));
+    const std::string says = test::error_of([&] { read_corrections(path); }).sentence;
+    EXPECT_NE(says.find("line 2, column"), std::string::npos) << says;
+    EXPECT_LT(says.size(), path.size() + 300);
 }
 
 }  // namespace
