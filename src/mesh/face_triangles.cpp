@@ -1,11 +1,14 @@
 #include "src/mesh/face_triangles.hpp"
 
 #include "src/base/index.hpp"
+#include "src/mesh/moderate_scale.hpp"
 #include "src/mesh/polygon_triangulation.hpp"
 
 namespace coseg {
 
 std::vector<FaceTriangle> face_triangles(const PolygonMesh& mesh) {
+    if (const int exponent = extreme_exponent(mesh); exponent != 0)
+        return face_triangles(scaled_by_power(mesh, -exponent));
     std::vector<FaceTriangle> triangles;
     triangles.reserve(at(mesh.face_count()));
     std::vector<Eigen::Vector3d> corners;

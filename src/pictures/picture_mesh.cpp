@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "src/base/index.hpp"
+#include "src/mesh/moderate_scale.hpp"
 #include "src/mesh/polygon_triangulation.hpp"
 #include "src/mesh/vertex_welding.hpp"
 
@@ -53,6 +54,8 @@ Eigen::Matrix3Xd area_normals(const TriMesh& mesh) {
 }  // namespace
 
 PictureMesh picture_mesh(const PolygonMesh& mesh, const std::vector<Color>& color_of_face) {
+    if (const int exponent = extreme_exponent(mesh); exponent != 0)
+        return picture_mesh(scaled_by_power(mesh, -exponent), color_of_face);
     const std::vector<int> stand_for = weld_vertices(mesh);
     std::vector<Eigen::Vector3i> triangles;
     PictureMesh picture;

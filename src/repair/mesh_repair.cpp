@@ -9,6 +9,7 @@
 
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/mesh/moderate_scale.hpp"
 #include "src/mesh/polygon_triangulation.hpp"
 #include "src/mesh/vertex_welding.hpp"
 #include "src/repair/degenerate_faces.hpp"
@@ -180,21 +181,6 @@ std::vector<std::string> describe(const std::string& name, const RepairCounts& c
     return sentences;
 }
 
-/// Of the largest coordinate, as a power of two, if the squares of lengths leave the range of doubles; else
-/// 0.
-int extreme_exponent(const PolygonMesh& input) {
-    constexpr double largest = 1e100;
-    double reach = 0.0;
-    for (const Vector3d& p : input.vertices) reach = std::max(reach, p.lpNorm<Eigen::Infinity>());
-    if (reach == 0.0 || (reach <= largest && reach >= 1.0 / largest)) return 0;
-    return std::ilogb(reach);
-}
-
-PolygonMesh scaled(PolygonMesh mesh, int exponent) {
-    for (Vector3d& p : mesh.vertices) p = p.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
-    return mesh;
-}
-
 /// Whose label each input face takes. working: triangles whose input faces share the label of no other face.
 std::vector<int> label_donors(const PolygonMesh& input, const WorkingTriangles& working,
                               const DoubledFaces& doubles) {
@@ -254,7 +240,7 @@ RepairedMesh repair(const PolygonMesh& input, const std::string& name, const Bor
     check_input(input, name);
     const int exponent = extreme_exponent(input);
     if (exponent == 0) return repair_moderate(input, name, welding);
-    return repair_moderate(scaled(input, -exponent), name, welding);
+    return repair_moderate(scaled_by_power(input, -exponent), name, welding);
 }
 
 }  // namespace coseg
