@@ -141,10 +141,15 @@ int parse_and_run(const Comm& world, int argc, char** argv) {
         }
         std::reverse(words.begin(), words.end());  // as CLI11 takes them
         app.parse(words);
+        for (const coseg::Command& command : commands) {
+            if (command.app->parsed()) coseg::refuse_empty_values(*command.app);
+        }
     } catch (const CLI::ParseError& error) {
         return report_parse_error(app, error, world.is_root());
     } catch (const AgreedError& error) {
         return agreed_exit(error, world.is_root());
+    } catch (const std::exception& error) {
+        return agreed_exit(AgreedError(ExitCode::internal, error.what()), world.is_root());
     }
     return run_command(commands, {world, arguments.petsc});
 }

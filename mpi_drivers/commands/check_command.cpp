@@ -14,6 +14,7 @@
 #include "mpi_drivers/describe/mesh_check.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/option_checks.hpp"
 #include "mpi_drivers/options/weld_option.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
@@ -104,8 +105,23 @@ void print(const std::vector<CheckedMesh>& meshes, const CheckTotals& totals) {
               << " with something to repair or to know, " << totals.set_aside << " set aside" << std::endl;
 }
 
+/// `--json chairs/*.off` would take the first mesh for the file to write.
+void refuse_json_over_mesh(const std::string& json, std::vector<std::string> inputs,
+                           const std::vector<MeshEntry>& entries) {
+    if (json.empty()) return;
+    if (readable_format_of(json) != nullptr)
+        throw Error(ExitCode::usage, "--json: '" + json +
+                                         "' has the name of a mesh, which would be overwritten; name a file "
+                                         "for the findings, such as check.json");
+    for (const MeshEntry& entry : entries) inputs.push_back(entry.path);
+    refuse_output_over_input("--json", json, inputs);
+}
+
 void check(const Comm& world, const CheckOptions& options) {
     const std::vector<MeshEntry> entries = list_meshes(world, options.inputs);
+    agree(world, [&] {
+        if (world.is_root()) refuse_json_over_mesh(options.json, options.inputs, entries);
+    });
     const std::vector<CheckedMesh> meshes = check_meshes(world, entries, border_limits(options.weld));
     std::int64_t set_aside = 0;
     agree(world, [&] {

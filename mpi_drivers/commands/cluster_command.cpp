@@ -50,7 +50,10 @@ void cluster_file(const Invocation& invocation, const ClusterSettings& settings)
     ClusterData data;
     data.name = settings.path;
     agree(comm, [&] {
-        if (comm.is_root()) data.file = read_feature_file(settings.path);
+        if (!comm.is_root()) return;
+        refuse_output_over_input("--out", settings.out, {settings.path});
+        refuse_output_over_input("--coefficients", settings.coefficients, {settings.path});
+        data.file = read_feature_file(settings.path);
     });
     share(comm, data);
     const auto [problem, solution] = solve_clusters(comm, data, settings.cluster);
@@ -94,7 +97,7 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
 void add_limits(CLI::App& app, ClusterSettings& settings) {
     app.add_option("--gap", settings.cluster.solve.gap, "Stop at this relative duality gap")
         ->check(finite_number)
-        ->check(CLI::Range(1e-14, 1.0))
+        ->check(gap_from(1e-14))
         ->capture_default_str();
     app.add_option("--max-iterations", settings.cluster.solve.max_iterations, "Stop after so many iterations")
         ->check(CLI::Range(1, 1 << 30))

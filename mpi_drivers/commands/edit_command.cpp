@@ -71,6 +71,20 @@ RunOptions options_of(const FinishedRun& run, const EditOptions& given) {
     return result;
 }
 
+/// Nobody should correct for an hour what no run would follow.
+void refuse_uncorrectable(const FinishedRun& run, const RunOptions& options) {
+    for (const auto& [key, value] : run.options) {
+        if (key == "to")
+            throw Error(ExitCode::input, "'" + run.folder + "' was made by coseg assign; correct the run '" +
+                                             value +
+                                             "', or give coseg assign the right parts with --examples");
+    }
+    if (!can_be_corrected(options.partition))
+        throw Error(ExitCode::input, "'" + run.folder +
+                                         "' was made with --parts 1, --subsets, --segments or --partition "
+                                         "diffusion, which corrections do not follow; run it again without");
+}
+
 /// The meshes of the run: where it found them, or of the same names among `meshes`.
 std::vector<MeshEntry> entries_of(const FinishedRun& run, const std::vector<std::string>& meshes) {
     std::vector<MeshEntry> entries;
@@ -165,6 +179,7 @@ void edit(const Invocation& invocation, const EditOptions& options) {
     std::unique_ptr<StateLock> lock;
     agree(comm, [&] {
         run_options = options_of(finished, options);
+        refuse_uncorrectable(finished, run_options);
         if (comm.is_root()) entries = entries_of(finished, options.meshes);
         if (comm.is_root()) lock = session_lock(options.run);
     });

@@ -69,7 +69,10 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
             "--links needs --scope meshes and a variant that keeps it; row scope, ssc and ssqp are "
             "over all pairs");
     }
-    agree(comm, reserve_blas_memory);
+    agree(comm, [&] {
+        refuse_output_over_input("--coefficients", settings.coefficients, {settings.path});
+        reserve_blas_memory();
+    });
     FeatureMatrices features;
     const ProblemFile file = broadcast_problem(comm, settings.path, features);
     const SubspaceProblem problem = problem_of(file, std::move(features), settings);
@@ -126,7 +129,7 @@ Command add_solve_command(CLI::App& parent) {
                     "How W is stored: all pairs (dense) or a working set");
     app->add_option("--gap", settings->options.gap, "Stop at this relative duality gap")
         ->check(finite_number)
-        ->check(CLI::Range(1e-14, 1.0))
+        ->check(gap_from(1e-14))
         ->capture_default_str();
     app->add_option("--max-iterations", settings->options.max_iterations, "Stop after so many iterations")
         ->check(CLI::Range(1, 1 << 30))

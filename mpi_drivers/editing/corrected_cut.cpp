@@ -220,8 +220,10 @@ std::vector<std::vector<std::string>> reasons(const CorrectionState& state,
 std::unique_ptr<CorrectedParts> corrected_parts_of(const Comm& comm, const CorrectionBase& base,
                                                    const SolvedPatches& patches,
                                                    const PartitionOptions& options) {
-    const PartitionInput input =
+    PartitionInput input =
         partition_input(comm, base.collection, patches.features, patches.coefficients, options);
+    // What is said is learnt from the features, also where the parts were not chosen by them.
+    if (!options.choose) input.features = {comm, patches.features.histograms};
     const std::vector<int> mesh_of = base.collection.numbering.mesh_of();
     const std::vector<GlobalPatchNeighbors> neighbors = local_neighbors(base.collection);
     const std::vector<GlobalPatchOverlap> overlaps = local_overlaps(base.collection);

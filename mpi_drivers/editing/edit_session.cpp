@@ -255,6 +255,7 @@ std::vector<double> EditSession::confidence() const {
     std::vector<double> mean(base_.collection.meshes.size(), 0.0);
     for (std::size_t i = 0; i < objective.mesh_of.size(); ++i)
         mean[at(objective.mesh_of[i])] += objective.share[i] * cut().confidence[i];
+    for (double& m : mean) m = std::min(m, 1.0);  // shares sum to 1 but for rounding
     return mean;
 }
 

@@ -90,6 +90,11 @@ std::string spaced(const std::vector<std::string>& words) {
     return text;
 }
 
+[[noreturn]] void refuse_empty_value(const std::string& name) {
+    throw CLI::ParseError(name + " has an empty value; give one, or leave it out",
+                          CLI::ExitCodes::ValidationError);
+}
+
 }  // namespace
 
 void fold_help(CLI::App& app, const std::vector<std::string>& groups_always_shown) {
@@ -102,11 +107,21 @@ void refuse_unknown_options(const CLI::App& command, const std::vector<std::stri
     for (const std::string& word : words) {
         if (!word.starts_with("--") || word.size() == 2) continue;
         const std::string name = word.substr(0, word.find('='));
+        // CLI11 would take the next word for the value.
+        if (word == name + "=") refuse_empty_value(name);
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         const std::string meant = nearest_word(name, known);
         throw CLI::ParseError(name + " is not an option of coseg " + command.get_name() +
                                   (meant.empty() ? "" : "; did you mean " + meant + "?"),
                               CLI::ExitCodes::ExtrasError);
+    }
+}
+
+void refuse_empty_values(const CLI::App& command) {
+    for (const CLI::Option* option : options_of(command)) {
+        for (const std::string& value : option->results()) {
+            if (value.empty()) refuse_empty_value(option->get_name());
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace coseg {
 
@@ -15,5 +16,14 @@ inline const CLI::Validator finite_number(
         return std::string();
     },
     "");
+
+/// A relative gap that sums in double precision can reach, from `least` to 1. CLI::Range would print the
+/// limit as 0.
+CLI::Validator gap_from(double least);
+
+/// Throws Error(usage) where the file that `option` names for the output is one of the inputs, under whatever
+/// name. "" and what is no regular file are no output to lose an input by; an @LIST counts as its file.
+void refuse_output_over_input(const std::string& option, const std::string& output,
+                              const std::vector<std::string>& inputs);
 
 }  // namespace coseg

@@ -360,7 +360,10 @@ void RunOptionTable::add_feature_weights() {
     const std::vector<double> standard = default_descriptor_weights();
     const auto take = [&weights, standard](const std::string& text) {
         std::vector<double> given;
-        for (const std::string& number : CLI::detail::split(text, ',')) given.push_back(std::stod(number));
+        for (const std::string& number : CLI::detail::split(text, ',')) {
+            given.push_back(0.0);
+            CLI::detail::lexical_cast(number, given.back());  // checked before
+        }
         if (given.size() > standard.size()) {
             throw CLI::ValidationError("--feature-weights",
                                        "there are only " + std::to_string(standard.size()) + " descriptors");
@@ -422,7 +425,7 @@ void RunOptionTable::add_solver() {
     add({"solver", Affects::solve, optimise_group, "auto, dense or working-set"}, optimise.solver);
     add({"gap", Affects::solve, optimise_group, "Relative duality gap at which the optimiser stops"},
         optimise.gap)
-        ->check(CLI::Range(1e-12, 1.0));
+        ->check(gap_from(1e-12));
     add({"max-iterations", Affects::solve, optimise_group, "Limit of the optimiser's iterations"},
         optimise.max_iterations)
         ->check(CLI::Range(1, 100000000));

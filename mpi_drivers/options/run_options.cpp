@@ -74,7 +74,16 @@ std::vector<RunOptions> presets() {
     return all;
 }
 
+/// Whether the parts are not those of one normalised cut of the whole collection.
+bool cuts_otherwise(const PartitionOptions& partition) {
+    return partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion;
+}
+
 }  // namespace
+
+bool can_be_corrected(const PartitionOptions& partition) {
+    return !cuts_otherwise(partition) && partition.parts != 1;
+}
 
 void refuse_contradictions(const RunOptions& options) {
     const std::vector<double>& weights = options.features.weights;
@@ -84,14 +93,12 @@ void refuse_contradictions(const RunOptions& options) {
         throw AgreedError(ExitCode::usage,
                           "--feature-weights: all are zero; give at least one that is positive");
     const PartitionOptions& partition = options.partition;
-    const bool is_cut_otherwise =
-        partition.subsets > 0 || partition.segments || partition.method == PartitionMethod::diffusion;
+    const bool is_cut_otherwise = cuts_otherwise(partition);
     const bool is_chosen = partition.choose && !is_cut_otherwise;
     if (!partition.examples.empty() && is_cut_otherwise)
         throw AgreedError(ExitCode::usage,
                           "--examples cannot be joined with --subsets, --segments or --partition diffusion");
-    if ((!partition.corrections.empty() || !partition.constraints.empty()) &&
-        (is_cut_otherwise || partition.parts == 1))
+    if ((!partition.corrections.empty() || !partition.constraints.empty()) && !can_be_corrected(partition))
         throw AgreedError(ExitCode::usage,
                           "--corrections and --constraints need two parts or more, and cannot be joined with "
                           "--subsets, --segments or --partition diffusion");

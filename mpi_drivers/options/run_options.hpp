@@ -20,6 +20,10 @@ struct RunOptions {
     ProcessOptions process;
 };
 
+/// Whether corrections and constraints follow the parts of such a run: two parts or more, of one normalised
+/// cut of the whole collection.
+bool can_be_corrected(const PartitionOptions& partition);
+
 /// Throws AgreedError(usage) where options exclude each other. The options are the same on every rank.
 void refuse_contradictions(const RunOptions& options);
 

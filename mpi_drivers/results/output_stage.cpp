@@ -79,6 +79,8 @@ std::vector<double> gather_confidence(const Comm& comm, const RunOutcome& outcom
     }
     MPI_Allreduce(MPI_IN_PLACE, means.data(), static_cast<int>(means.size()), MPI_DOUBLE, MPI_SUM,
                   comm.raw());
+    // Shares of an area sum to 1 but for rounding.
+    for (double& mean : means) mean = std::min(mean, 1.0);
     return means;
 }
 

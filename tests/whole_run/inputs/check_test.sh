@@ -37,6 +37,11 @@ for count in 2 4; do
 done
 echo "ok: the same lines on 1, 2 and 4 ranks"
 
+refuses "findings over a mesh" 2 "has the name of a mesh" "$COSEG" check --json "$work/set/a.off" "$work/set/b.off"
+echo "$work/set/a.off" >"$work/list"
+refuses "findings over the list" 2 "is an input, which would be overwritten" "$COSEG" check "@$work/list" --json "$work/./list"
+[[ $(cat "$work/list") == "$work/set/a.off" && $(head -n 1 "$work/set/a.off") == OFF ]] || fail "an input is overwritten"
+
 # What check says is what a run says.
 "$COSEG" run --quiet --parts 2 --patches 10 --geodesic-samples 40 --no-html --out "$work/run" "$work/set" 2>"$work/err"
 python3 - "$work/check.json" "$work/run/report.json" <<'END' || fail "check and run differ"

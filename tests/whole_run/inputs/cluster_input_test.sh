@@ -135,4 +135,10 @@ done
 for variant in single-feature independent concatenated ssc ssc-signed; do
     refuses "optimum W = 0, $variant" 3 "the optimum is W = 0 (certified)" cluster good 1 --variant $variant --beta 1e6
 done
+cp "$work/good.h5" "$work/kept.h5"
+refuses "clusters over the input" 2 "is an input, which would be overwritten" \
+    "$COSEG" cluster --parts 2 --out "$work/kept.h5" "$work/kept.h5"
+refuses "coefficients over the input" 2 "is an input, which would be overwritten" \
+    "$COSEG" cluster --parts 2 --out "$work/k.txt" --coefficients "$work/kept.h5" "$work/kept.h5"
+cmp "$work/good.h5" "$work/kept.h5" || fail "the input is overwritten"
 echo "ok: cluster input"

@@ -16,6 +16,10 @@ done
 refuses "no subcommand" 2 "subcommand" "$COSEG"
 refuses "unknown subcommand" 2 "segment" "$COSEG" segment
 
+refuses "an option with an empty value" 2 "--out has an empty value" "$COSEG" run --parts 2 --out "" "$work"
+refuses "an empty value behind =" 2 "--state has an empty value" "$COSEG" run --parts 2 --state= --out "$work/x" "$work"
+refuses "a gap that no sum can reach" 2 "'0' is no number from 1e-12 to 1" "$COSEG" run --parts 2 --gap 0 --out "$work/x" "$work"
+
 mkdir "$work/set"
 peanut "$work/set/a.off" 0.5
 peanut "$work/set/b.off" 0.6
@@ -48,6 +52,8 @@ refuses "output that cannot be written" 4 "standard output" bash -c "'$COSEG' ge
 printf '[run]\nfeature-weights = [1, 0, 1, 0, 1]\ninput = ["%s"]\n' "$work/set" >"$work/weights.toml"
 "$COSEG" run "${common[@]}" --config "$work/weights.toml" --parts 2 --out "$work/weights"
 [[ -f $work/weights/report.json ]] || fail "inputs and weights in a file"
+refuses "a weight too small to count" 3 "all zeros (or too small" \
+    "$COSEG" run "${common[@]}" --feature-weights 1e-310 --parts 2 --out "$work/x" "$work/set"
 refuses "configuration file that is missing" 2 "$work/none.toml" \
     "$COSEG" run "${common[@]}" --config "$work/none.toml" --parts 2 --out "$work/x" "$work/set"
 

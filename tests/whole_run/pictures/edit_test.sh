@@ -40,6 +40,10 @@ else
 fi
 
 # What is no run, what has changed, what cannot be written.
+"$COSEG" run --quiet --no-html --no-sheet --parts 1 --patches 20 --geodesic-samples 40 --out "$work/whole" "$work/set/meshes"
+refuses "a run without parts to correct" 3 "which corrections do not follow" "$COSEG" edit --quiet "$work/whole"
+"$COSEG" assign --quiet --no-html --no-sheet --to "$work/whole" --out "$work/assigned" "$work/set/meshes"
+refuses "assigned shapes" 3 "was made by coseg assign" "$COSEG" edit --quiet "$work/assigned"
 refuses "no run" 3 "holds no report.json" "$COSEG" edit "$work/set"
 cp "$work/again/corrections.json" "$work/kept.json"
 sed -i 's/"run": "./"run": "x/' "$work/run/corrections.json"

@@ -78,6 +78,10 @@ diff -r "$work/said/labels" "$work/again/labels" || fail "the corrections that t
 
 # Constraints alone, as CSV and as JSON.
 printf '# links\nmust-link, table_0001, 0, table_0002, 5\ncannot-link,table_0001,0,table_0003,9\nabsent,0,table_0000\n' >"$work/c.csv"
+# Parts that were not chosen by the features are corrected all the same.
+"${run[@]}" --no-choose --constraints "$work/c.csv" --out "$work/unchosen" "$work/set/meshes"
+ranks 2 "${run[@]}" --no-choose --corrections "$work/unchosen/corrections.json" --out "$work/unchosen2" "$work/set/meshes"
+diff -r "$work/unchosen/labels" "$work/unchosen2/labels" || fail "corrections of parts that were not chosen"
 cat >"$work/c.json" <<'END'
 {"format": "coseg constraints", "version": 1, "constraints": [
  {"act": "must-link", "first": {"shape": "table_0001", "face": 0}, "second": {"shape": "table_0002", "face": 5}},

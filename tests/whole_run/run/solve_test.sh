@@ -86,6 +86,7 @@ expect 2 "" "$folder/problem.txt" --gap 2
 expect 2 "not finite" "$folder/problem.txt" --gap nan
 expect 2 "not finite" "$folder/problem.txt" --max-seconds nan
 expect 2 "feature 3 is asked for" "$folder/problem.txt" --variant single-feature --feature 3
+expect 2 "is an input, which would be overwritten" "$folder/problem.txt" --coefficients "$folder/problem.txt"
 expect 2 "needs --scope meshes" "$folder/problem.txt" --links 2
 expect 2 "at least 2" "$folder/problem.txt" --scope meshes --links 1
 expect 2 "" "$folder/problem.txt" --no-such-option
