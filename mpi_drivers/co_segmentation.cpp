@@ -147,6 +147,8 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
         if (output.keep_model)
             write_run_model(comm, folders.results(), collection, model, cut.part_of_patch, options);
         report = write_results(comm, folders.results(), outcome, output, log);
+        const bool has_names = parts == base_options.partition.parts;
+        if (has_names) write_names_of_examples(comm, folders.results(), examples);
         if (output.profile) write_profile(comm, folders.results(), options.process, log);
     } else {
         report = run_report(comm, outcome, log);

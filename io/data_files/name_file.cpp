@@ -66,4 +66,10 @@ LabelNames read_names(const std::string& path) { return parse_names(read_file(pa
 
 LabelNames read_found_names(const std::string& path) { return parse_names(read_regular_file(path), path); }
 
+std::string names_text(const LabelNames& names) {
+    std::string text;
+    for (const auto& [label, name] : names) text += std::to_string(label) + " " + name + "\n";
+    return text;
+}
+
 }  // namespace coseg

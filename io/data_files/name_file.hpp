@@ -20,4 +20,7 @@ LabelNames read_names(const std::string& path);
 /// refused with Error(input), as reading it could wait for ever.
 LabelNames read_found_names(const std::string& path);
 
+/// The text of such a file: the number and the name of each label, a line each.
+std::string names_text(const LabelNames& names);
+
 }  // namespace coseg

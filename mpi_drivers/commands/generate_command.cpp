@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/data_files/label_file.hpp"
+#include "io/data_files/name_file.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/mesh_files/off_format.hpp"
 #include "mpi_drivers/options/command.hpp"
@@ -92,11 +93,11 @@ void prepare_folders(const GenerateOptions& options) {
     }
 }
 
-std::string labels_text(const std::vector<std::string>& names) {
-    std::string text;
+LabelNames numbered(const std::vector<std::string>& names) {
+    LabelNames of_labels;
     for (std::size_t label = 0; label < names.size(); ++label)
-        text += std::to_string(label) + " " + names[label] + "\n";
-    return text;
+        of_labels.emplace(static_cast<int>(label), names[label]);
+    return of_labels;
 }
 
 void write_shape(const GenerateOptions& options, int index) {
@@ -118,7 +119,7 @@ void generate(const GenerateOptions& options, const Comm& world) {
         if (options.out.empty()) throw Error(ExitCode::usage, "name the folder to write into with --out");
         if (!world.is_root()) return;
         prepare_folders(options);
-        write_file(options.out + "/truth/labels.txt", labels_text(family.labels));
+        write_file(options.out + "/truth/labels.txt", names_text(numbered(family.labels)));
     });
     agree(world, [&] {
         for (int index = world.rank(); index < options.count; index += world.size())

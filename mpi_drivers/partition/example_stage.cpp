@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/data_files/label_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "mpi_drivers/describe/patch_gather.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -54,6 +55,17 @@ int labels_in(const std::string& folder) {
     }
     if (largest < 0) throw Error(ExitCode::input, "--examples " + folder + ": no face has a label");
     return largest + 1;
+}
+
+/// What FOLDER/names.txt calls the labels; nothing where it is not there.
+LabelNames names_in(const std::string& folder, int parts) {
+    const std::string path = folder + "/names.txt";
+    if (!fs::exists(path)) return {};
+    LabelNames names = read_found_names(path);
+    if (names.rbegin()->first < parts) return names;
+    throw Error(ExitCode::input, path + ": label " + std::to_string(names.rbegin()->first) +
+                                     " has a name, but there are " + std::to_string(parts) +
+                                     " parts; labels count from 0");
 }
 
 void refuse_strangers(const Collection& collection, const std::vector<std::string>& names,
@@ -113,6 +125,9 @@ RunOptions with_parts_of_examples(const Comm& comm, const RunOptions& options) {
         throw AgreedError(ExitCode::input, "--examples " + partition.examples + ": there is a label " +
                                                std::to_string(labels - 1) + ", which needs --parts " +
                                                std::to_string(labels) + " or more; labels count from 0");
+    agree(comm, [&] {
+        if (comm.is_root()) names_in(partition.examples, partition.parts);
+    });
     return result;
 }
 
@@ -125,6 +140,7 @@ GivenLabels read_given_labels(const Comm& comm, const Collection& collection, co
     std::vector<Eigen::MatrixXd> local;
     agree(comm, [&] {
         names = example_names(options.examples);
+        if (comm.is_root()) given.names = names_in(options.examples, options.parts);
         refuse_strangers(collection, names, options.examples);
         for (const MeshDescription& mesh : collection.local) {
             const std::string& name = collection.meshes[at(mesh.mesh)].name;
@@ -145,6 +161,13 @@ GivenLabels read_examples(const Comm& comm, const Collection& collection, const 
     GivenLabels given = read_given_labels(comm, collection, options, log);
     warn_of_labels_without_example(given.patches.area, log);
     return given;
+}
+
+void write_names_of_examples(const Comm& comm, const std::string& folder, const GivenLabels& examples) {
+    agree(comm, [&] {
+        if (comm.is_root() && !examples.names.empty())
+            write_file(folder + "/names.txt", names_text(examples.names));
+    });
 }
 
 }  // namespace coseg

@@ -1,8 +1,10 @@
 #pragma once
 // Labels by example: reads the labels that a user gives for some of the shapes (--examples).
 
+#include <string>
 #include <vector>
 
+#include "io/data_files/name_file.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "mpi_drivers/options/run_options.hpp"
 #include "solvers/partition/labelled_parts.hpp"
@@ -14,7 +16,7 @@ namespace coseg {
 /// The options with a number of parts: without --parts it is that of the labels in the examples, the largest
 /// of them plus 1. Rank 0 reads them. Collective. Throws AgreedError: usage without --parts and --examples;
 /// input for a folder that cannot be read or has no NAME.seg, a file that is no label file, a label below -1,
-/// and a label that is not below --parts.
+/// a label that is not below --parts, and a name of such a label in its names.txt.
 RunOptions with_parts_of_examples(const Comm& comm, const RunOptions& options);
 
 /// Of one mesh, parts x its patches, its over-segmentations in order: the area of each patch on faces of each
@@ -28,6 +30,7 @@ struct GivenLabels {
     /// Of each mesh of collection.local: the label of each face of its file, -1 where nothing is said; empty
     /// for a mesh that is no example.
     std::vector<std::vector<int>> faces;
+    LabelNames names;  ///< of names.txt beside the labels; on rank 0
 };
 
 /// Each rank reads the labels of its meshes, FOLDER/NAME.seg, where options.examples is FOLDER; "" for none.
@@ -40,5 +43,9 @@ GivenLabels read_given_labels(const Comm& comm, const Collection& collection, co
 /// no example shows.
 GivenLabels read_examples(const Comm& comm, const Collection& collection, const PartitionOptions& options,
                           StageLog& log);
+
+/// FOLDER/names.txt, where `coseg export` and `coseg render` look for the names of parts; nothing where the
+/// examples have no names. Collective; throws AgreedError(output).
+void write_names_of_examples(const Comm& comm, const std::string& folder, const GivenLabels& examples);
 
 }  // namespace coseg

@@ -29,20 +29,22 @@ void warn_of_degenerate_parts(const CutResult& cut, int parts, int meshes, const
     if (!chosen.degenerate) return;
     std::string named;
     int kept = 0;
-    for (int p = 0; p < chosen.parts_found; ++p) {
-        const int in_meshes = cut.meshes_with_part[at(p)];
-        if (!is_degenerate_part(cut.part_share[at(p)], in_meshes, meshes)) {
+    for (std::size_t p = 0; p < cut.part_share.size(); ++p) {
+        const int in_meshes = cut.meshes_with_part[p];
+        if (in_meshes == 0) continue;
+        if (!is_degenerate_part(cut.part_share[p], in_meshes, meshes)) {
             ++kept;
             continue;
         }
         named += (named.empty() ? "part " : "; part ") + std::to_string(p) + " has " +
-                 percent(cut.part_share[at(p)], 2) + " of the area and is in " + std::to_string(in_meshes) +
+                 percent(cut.part_share[p], 2) + " of the area and is in " + std::to_string(in_meshes) +
                  " of " + with_unit(meshes, "shape", "shapes");
     }
+    if (named.empty()) return;
     log.warn(std::to_string(parts) + " parts are asked for, but only " + std::to_string(kept) +
-             " are in half of the shapes and have half a percent of the area (" + named +
-             "); no partition without such parts was found; try --parts " +
-             std::to_string(std::max(2, kept)));
+             (kept == 1 ? " is" : " are") + " in half of the shapes and " + (kept == 1 ? "has" : "have") +
+             " half a percent of the area (" + named + "); no partition without such parts was found" +
+             (kept > 1 ? "; try --parts " + std::to_string(kept) : std::string()));
 }
 
 std::string describe_starts(const CutResult& cut) {

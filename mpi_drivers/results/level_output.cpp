@@ -1,6 +1,9 @@
 #include "mpi_drivers/results/level_output.hpp"
 
+#include <mpi.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "io/data_files/label_file.hpp"
 #include "io/folders/state_folder.hpp"
@@ -58,11 +61,60 @@ class MeshPieces {
     std::vector<double> area_;  ///< of each piece in the mesh, over all over-segmentations
 };
 
-/// labels_at_level of each level, from 2 parts on.
-std::vector<std::vector<int>> labels_of_levels(const PartTree& tree) {
-    std::vector<std::vector<int>> levels;
-    for (int count = 2; count <= tree.finest(); ++count) levels.push_back(labels_at_level(tree, count));
+/// The parts of a level that is written, of each piece.
+struct WrittenLevel {
+    int parts = 0;
+    std::vector<int> label_of_piece;  ///< -1 of pieces without a face
+};
+
+/// 1 for each piece that a face of any mesh has. Collective.
+std::vector<int> pieces_with_faces(const Comm& comm, const std::vector<std::vector<int>>& pieces_of_faces,
+                                   std::size_t pieces) {
+    std::vector<int> found(pieces, 0);
+    for (const std::vector<int>& of_mesh : pieces_of_faces) {
+        for (const int piece : of_mesh) found[at(piece)] = 1;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(pieces), MPI_INT, MPI_MAX, comm.raw());
+    return found;
+}
+
+/// The level with `count` parts of the tree, with numbers for those parts alone that have a face.
+WrittenLevel level_of_faces(const PartTree& tree, int count, const std::vector<int>& has_faces) {
+    WrittenLevel level{0, labels_at_level(tree, count)};
+    std::vector<int> number(at(count), -1);
+    for (std::size_t p = 0; p < has_faces.size(); ++p) {
+        if (has_faces[p] != 0) number[at(level.label_of_piece[p])] = 0;
+    }
+    for (int& n : number) {
+        if (n == 0) n = level.parts++;
+    }
+    for (int& label : level.label_of_piece) label = number[at(label)];
+    return level;
+}
+
+/// One level for each number of parts that have faces: that of the run's parts as it is, and of others with
+/// the same number the coarsest.
+std::vector<WrittenLevel> written_levels(const PartTree& tree, int parts, const std::vector<int>& has_faces) {
+    std::vector<WrittenLevel> levels;
+    for (int count = 2; count <= tree.finest(); ++count) {
+        WrittenLevel level = count == parts ? WrittenLevel{parts, labels_at_level(tree, parts)}
+                                            : level_of_faces(tree, count, has_faces);
+        const bool is_new = std::none_of(levels.begin(), levels.end(), [&](const WrittenLevel& other) {
+            return other.parts == level.parts;
+        });
+        if (count == parts || (is_new && level.parts >= 2 && level.parts != parts))
+            levels.push_back(std::move(level));
+    }
     return levels;
+}
+
+void write_level(const std::string& folder, const std::string& name, const WrittenLevel& level,
+                 const std::vector<int>& pieces) {
+    std::vector<int> labels;
+    for (const int piece : pieces) labels.push_back(level.label_of_piece[at(piece)]);
+    const std::string path = folder + "/levels/" + std::to_string(level.parts) + "/" + name + ".seg";
+    make_parent_folders(path);
+    write_labels(path, labels);
 }
 
 }  // namespace
@@ -70,21 +122,20 @@ std::vector<std::vector<int>> labels_of_levels(const PartTree& tree) {
 void write_levels(const Comm& comm, const std::string& folder, const Collection& collection,
                   const CutResult& cut, const std::vector<MeshLabels>& labels) {
     if (cut.tree.empty()) return;
-    const std::vector<std::vector<int>> levels = labels_of_levels(cut.tree);
-    const std::vector<int>& part_of_piece = levels[cut.part_share.size() - 2];
+    const auto parts = static_cast<int>(cut.part_share.size());
+    const std::vector<int> part_of_piece = labels_at_level(cut.tree, parts);
+    std::vector<std::vector<int>> pieces;
+    agree(comm, [&] {
+        for (std::size_t k = 0; k < labels.size(); ++k)
+            pieces.push_back(MeshPieces(collection.local[k], collection.numbering, cut.tree, part_of_piece)
+                                 .of_faces(labels[k].part));
+    });
+    const std::vector<WrittenLevel> levels =
+        written_levels(cut.tree, parts, pieces_with_faces(comm, pieces, part_of_piece.size()));
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {
-            const MeshDescription& mesh = collection.local[k];
-            const std::vector<int> pieces =
-                MeshPieces(mesh, collection.numbering, cut.tree, part_of_piece).of_faces(labels[k].part);
-            for (std::size_t level = 0; level < levels.size(); ++level) {
-                std::vector<int> of_faces;
-                for (const int piece : pieces) of_faces.push_back(levels[level][at(piece)]);
-                const std::string path = folder + "/levels/" + std::to_string(level + 2) + "/" +
-                                         collection.meshes[at(mesh.mesh)].name + ".seg";
-                make_parent_folders(path);
-                write_labels(path, of_faces);
-            }
+            for (const WrittenLevel& level : levels)
+                write_level(folder, collection.meshes[at(collection.local[k].mesh)].name, level, pieces[k]);
         }
     });
 }

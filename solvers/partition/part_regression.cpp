@@ -163,8 +163,10 @@ LinearScore PartRegression::learnt(const SaidParts& said) const {
 Eigen::MatrixXd PartRegression::scores(const SaidParts& said) const {
     const Eigen::Index k = said.area.rows();
     Eigen::MatrixXd scores = learnt(said)(x_);
+    const Eigen::VectorXd of_part = said.area.rowwise().sum();
+    const bool has_contrast = (of_part.array() > 0.0).count() > 1;
     for (Eigen::Index part = 0; part < k && said.base.empty(); ++part) {
-        if (said.area.row(part).sum() <= 0.0) scores.row(part).setConstant(1.0 / static_cast<double>(k));
+        if (of_part(part) <= 0.0 || !has_contrast) scores.row(part).setConstant(1.0 / static_cast<double>(k));
     }
     hold_known_labels({said.area}, patch_area_, scores);
     return scores;

@@ -65,8 +65,9 @@ class PartRegression {
 
     /// K x N: about 1 where a patch has the part and about 0 elsewhere. A patch of which at least half is
     /// said has 1 for its part and 0 for the others. Of a part of which nothing is said nothing is predicted:
-    /// it has 1 / K everywhere where there is no base, and 0 where the base has no patch of it. Serial; a
-    /// function of the arguments alone. Throws Error(input) where nothing is known of any patch.
+    /// it has 1 / K everywhere where there is no base, and 0 where the base has no patch of it. Neither is
+    /// anything of one part alone, without a base: all patches would seem to have it. Serial; a function of
+    /// the arguments alone. Throws Error(input) where nothing is known of any patch.
     [[nodiscard]] Eigen::MatrixXd scores(const SaidParts& said) const;
 
     /// How other patches are scored, which nothing is said of. Throws as scores().

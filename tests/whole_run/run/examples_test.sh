@@ -59,9 +59,18 @@ assert b"property float confidence" in ply and ply.endswith(b"\0\0\x80\x3f")
 means = {mesh["name"]: mesh["confidence"] for mesh in json.load(open(run + "/report.json"))["meshes"]}
 assert abs(means["table_0002"] - 1) < 1e-6 and all(0.5 < mean < 1 + 1e-9 for mean in means.values()), means
 END
-# A label that no example shows is a part of its own, and is said.
+# A label that no example shows is a part of its own, and is said. Names of the labels become those of the parts.
+printf '1 top\n2 drawer\n' >"$work/one/names.txt"
 "${run[@]}" --examples "$work/one" --parts 3 --out "$work/three" "$work/set/meshes" 2>"$work/log"
 grep -q "no example shows label 2" "$work/log" || fail "a label without an example: $(cat "$work/log")"
+grep -q "area ()" "$work/log" && fail "parts without a name: $(cat "$work/log")"
+cmp "$work/one/names.txt" "$work/three/names.txt" || fail "the names of the labels"
+rm "$work/one/names.txt"
+# One label alone says nothing of how it differs from others: those come from the partition.
+mkdir "$work/alone"
+awk '{ print ($1 == 1 ? 1 : -1) }' "$work/one/table_0002.seg" >"$work/alone/table_0002.seg"
+"${run[@]}" --examples "$work/alone" --parts 2 --out "$work/by_alone" "$work/set/meshes" 2>"$work/log"
+above "$(agreement by_alone)" 97 || fail "an example of one label: $(agreement by_alone) %"
 
 # Levels: one nested tree, whose level of K parts is the partition; an earlier run's levels go.
 "${run[@]}" --parts 2 --levels --out "$work/levels" "$work/set/meshes"
@@ -70,16 +79,16 @@ python3 - "$work/levels" <<'END' || fail "levels are not nested"
 import json, os, sys
 run = sys.argv[1]
 unions = json.load(open(run + "/report.json"))["partition"]["unions"]
-finest = len(unions) + 2
-assert sorted(map(int, os.listdir(run + "/levels"))) == list(range(2, finest + 1)) and finest > 4, finest
-for count in range(2, finest):
+levels = sorted(map(int, os.listdir(run + "/levels")))
+assert levels[0] == 2 and 4 < levels[-1] <= len(unions) + 2, levels
+for count, finer in zip(levels, levels[1:]):
     parents, labels = {}, set()
     for name in os.listdir(run + "/labels"):
-        coarse, fine = (open(f"{run}/levels/{level}/{name}").read().split() for level in (count, count + 1))
+        coarse, fine = (open(f"{run}/levels/{level}/{name}").read().split() for level in (count, finer))
         for a, b in zip(coarse, fine):
             assert parents.setdefault(b, a) == a, (count, name)
             labels.add(int(a))
-    assert labels <= set(range(count)), (count, labels)
+    assert labels == set(range(count)), (count, labels)
 END
 ranks 2 "${run[@]}" --parts 2 --levels --out "$work/levels2" "$work/set/meshes"
 diff -r "$work/levels/levels" "$work/levels2/levels" || fail "levels on 1 and on 2 ranks"
@@ -133,6 +142,9 @@ refused 2 "--levels needs two parts" --parts 1 --levels
 refused 2 "--parts auto compares partitions" --parts auto --preset paper
 refused 2 "--parts auto compares partitions" --parts auto --segments
 refused 3 "which needs --parts 2 or more" --examples "$work/one" --parts 1
+echo "2 drawer" >"$work/one/names.txt"
+refused 3 "names.txt: label 2 has a name, but there are 2 parts" --examples "$work/one"
+rm "$work/one/names.txt"
 head -n 10 "$work/one/table_0002.seg" >"$work/bad/table_0002.seg"
 refused 3 "table_0002.seg" --examples "$work/bad"
 cp "$work/one/table_0002.seg" "$work/bad/table_0099.seg" && rm "$work/bad/table_0002.seg"

@@ -117,6 +117,17 @@ TEST(PartRegression, IsTheRidgeRegressionOfWhatIsSaid) {
     for (const int examples : {7, 30}) expect_regression(Patches(40, examples, 5), 2);
 }
 
+TEST(PartRegression, OneLabelAloneSaysNothingOfOtherPatches) {
+    Patches patches(40, 7, 5);
+    patches.said.area.row(1).setZero();
+    const Eigen::MatrixXd scores = patches.scores();
+    for (int i = 0; i < patches.count; ++i) {
+        const bool is_known = i < 7 && i % 2 == 0 && i % 3 != 0;
+        EXPECT_EQ(scores(0, i), is_known ? 1.0 : 1.0 / 3.0) << i;
+        EXPECT_EQ(scores(2, i), is_known ? 0.0 : 1.0 / 3.0) << i;
+    }
+}
+
 TEST(PartRegression, LearnsFromTheBaseAsMuchAsFromATenthOfAShape) {
     for (const int examples : {0, 7}) {
         Patches patches(40, examples, 5);
