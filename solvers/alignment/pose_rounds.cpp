@@ -26,6 +26,7 @@ constexpr std::size_t least_certain_partners = 3;
 constexpr std::size_t most_certain_partners =
     20;  ///< each costs as much as the first and says less that is new
 constexpr int place_starts = 120;
+constexpr Eigen::Index most_places = 150;  ///< of a shape: time grows with their square
 constexpr int pairs_of_a_shape = 4;
 constexpr double most_scale = 2.0;
 
@@ -274,12 +275,15 @@ void PoseRounds::reflect(double better) {
 void PoseRounds::append_places(int mesh, const Eigen::Matrix3d& rotation, WeighedPlaces& places) const {
     const auto [first, last] = std::equal_range(input_.mesh_of.begin(), input_.mesh_of.end(), mesh);
     const auto begin = first - input_.mesh_of.begin();
-    const auto count = last - first;
+    const Eigen::Index step = (last - first + most_places - 1) / most_places;
+    const Eigen::Index count = step > 0 ? (last - first + step - 1) / step : 0;
     const Eigen::Index before = places.weight.size();
     places.positions.conservativeResize(3, before + count);
     places.weight.conservativeResize(before + count);
-    places.positions.rightCols(count) = rotation * input_.positions.middleCols(begin, count);
-    places.weight.tail(count) = Eigen::Map<const Eigen::VectorXd>(input_.patch_area.data() + begin, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        places.positions.col(before + k) = rotation * input_.positions.col(begin + k * step);
+        places.weight[before + k] = input_.patch_area[at(begin + k * step)];
+    }
 }
 
 ShapePose PoseRounds::turned_by_places(int mesh, const std::map<int, std::vector<PatchLink>>& certain) const {

@@ -83,7 +83,8 @@ class PoseRounds {
     /// The pose of a doubtful shape for turn_doubtful; `certain`: its links to shapes that are not.
     [[nodiscard]] ShapePose turned_by_places(int mesh,
                                              const std::map<int, std::vector<PatchLink>>& certain) const;
-    /// Adds the patches of a shape, turned as it is, to `places`; the weights are the areas.
+    /// Adds the patches of a shape, turned as it is, to `places`; the weights are the areas. Of more than 150
+    /// patches, as small collections with many over-segmentations have, it takes every second, third, ...
     void append_places(int mesh, const Eigen::Matrix3d& rotation, WeighedPlaces& places) const;
     [[nodiscard]] ShapePose moved(int mesh, const std::vector<PatchLink>& links) const;
 
