@@ -1,6 +1,7 @@
 #include "mpi_drivers/partition/example_stage.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -60,7 +61,7 @@ int labels_in(const std::string& folder) {
 /// What FOLDER/names.txt calls the labels; nothing where it is not there.
 LabelNames names_in(const std::string& folder, int parts) {
     const std::string path = folder + "/names.txt";
-    if (!fs::exists(path)) return {};
+    if (!std::filesystem::exists(path)) return {};
     LabelNames names = read_found_names(path);
     if (names.rbegin()->first < parts) return names;
     throw Error(ExitCode::input, path + ": label " + std::to_string(names.rbegin()->first) +

@@ -40,6 +40,12 @@ assert by_option["alpha"] == 0.02 and by_option["lambda"] == 10 and by_option["s
 assert by_option["oversegmentations"] == 1 and by_option["adjacency"] == 0
 assert by_option["drop-below"] == 1e-6 and by_option["cut-offset"] == 0.5
 END
+{ printf '\xef\xbb\xbf' && cat "$work/run.toml"; } >"$work/bom.toml"
+{ printf '\xff\xfe' && iconv -t UTF-16LE "$work/run.toml"; } >"$work/utf16.toml"
+for encoding in bom utf16; do
+    "$COSEG" run "${common[@]}" --config "$work/$encoding.toml" --out "$work/$encoding" "$work/set"
+    diff -r "$work/by_file/labels" "$work/$encoding/labels" || fail "a configuration file in another encoding: $encoding"
+done
 printf 'parts = 2\nno_such_key = 1\n' >"$work/wrong.toml"
 refuses "unknown key in a file" 2 "no_such_key" "$COSEG" run "${common[@]}" --config "$work/wrong.toml" --out "$work/x" "$work/set"
 printf '[solve]\nparts = 2\n' >"$work/section.toml"
