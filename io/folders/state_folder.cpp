@@ -30,7 +30,8 @@ constexpr const char* mark_text = "coseg state 1\n";
 std::string absolute_folder(const std::string& directory) {
     if (directory.empty()) throw Error(ExitCode::usage, "the state folder has no name; give one");
     std::error_code cause;
-    fs::path path = fs::weakly_canonical(fs::absolute(directory, cause), cause);
+    fs::path path = fs::absolute(directory, cause);  // fails where the current folder has been removed
+    if (!cause) path = fs::weakly_canonical(path, cause);
     if (cause) fail(directory, "the state folder's path cannot be followed", cause);
     if (!path.has_filename()) path = path.parent_path();
     return path.string();

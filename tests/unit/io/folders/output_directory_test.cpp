@@ -9,6 +9,7 @@
 #include <set>
 
 #include "io/data_files/label_file.hpp"
+#include "io/folders/state_folder.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -59,6 +60,19 @@ TEST(OutputDirectory, NothingStaysWhereNoFileCanBeOpened) {
     output.reset();
     ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
     EXPECT_EQ(tree(folder.path()), std::set<std::string>());
+}
+
+TEST(OutputDirectory, ACurrentFolderThatIsGoneIsRefused) {
+    const fs::path before = fs::current_path();
+    {
+        const TemporaryFolder folder;
+        fs::current_path(folder.path());
+    }
+    const std::string results = error_of([] { OutputDirectory("out", false); }).sentence;
+    const std::string state = error_of([] { StateFolder::open("state"); }).sentence;
+    fs::current_path(before);
+    EXPECT_NE(results.find("out: the output folder's path cannot be followed"), std::string::npos) << results;
+    EXPECT_NE(state.find("state: the state folder's path cannot be followed"), std::string::npos) << state;
 }
 
 TEST(OutputDirectory, AnEmptyFolderIsTaken) {
