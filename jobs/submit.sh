@@ -60,7 +60,7 @@ if [[ $collection == @* ]]; then
     collection=@$(realpath "${collection#@}")
 else
     [[ -d $collection ]] || { echo "error: $collection is no folder; name a folder of meshes or @LIST" >&2; exit 3; }
-    count=$(find "$collection" -maxdepth 1 -type f -iregex '.*\.\(off\|obj\|ply\|stl\|glb\|gltf\|vtp\)' | wc -l)
+    count=$(find -L "$collection" -maxdepth 1 -type f -iregex '.*\.\(off\|obj\|ply\|stl\|glb\|gltf\|vtp\)' | wc -l)
     name=$(basename "$(realpath "$collection")")
     collection=$(realpath "$collection")
 fi

@@ -25,6 +25,16 @@ void refuse_length(const std::string& path, const std::string& name, std::size_t
 
 bool is_size(double value) { return std::isfinite(value) && value >= 0.0; }
 
+void refuse_repeated_pairs(const std::string& path, const std::string& group, const ItemPairs& pairs) {
+    std::vector<std::pair<int, int>> sorted;
+    for (std::size_t k = 0; k < pairs.first.size(); ++k) sorted.emplace_back(pairs.first[k], pairs.second[k]);
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice == sorted.end()) return;
+    refuse(path, "'" + group + "' has the pair of items " + std::to_string(twice->first) + " and " +
+                     std::to_string(twice->second) + " twice");
+}
+
 ItemPairs read_pairs(const Hdf5Reader& reader, const std::string& group, const std::string& weight,
                      std::size_t items) {
     ItemPairs pairs;
@@ -43,6 +53,7 @@ ItemPairs read_pairs(const Hdf5Reader& reader, const std::string& group, const s
                                       " of at least 0");
         }
     }
+    refuse_repeated_pairs(reader.path(), group, pairs);
     return pairs;
 }
 

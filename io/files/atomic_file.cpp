@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "src/base/error.hpp"
 #include "src/base/seeded_random.hpp"
@@ -12,6 +13,23 @@
 namespace coseg {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the path leads to a pipe, a device or a socket, which takes what is written and is never replaced.
+bool is_channel(const std::string& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+/// The file that a link leads to, so that the link stays; the path itself where it is none.
+std::string target_of(const std::string& path) {
+    std::error_code cause;
+    if (!fs::is_symlink(path, cause)) return path;
+    const fs::path target = fs::canonical(path, cause);
+    return cause ? path : target.string();
+}
 
 /// Beside the file. Where its name is so long that none longer is allowed, a hash stands for its end.
 std::string temporary_path(const std::string& path) {
@@ -28,16 +46,24 @@ bool is_cause_of_writing(int cause) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path), temporary_(temporary_path(path)) {
+AtomicFile::AtomicFile(const std::string& path)
+    : path_(path), target_(target_of(path)), temporary_(is_channel(path) ? "" : temporary_path(target_)) {
     errno = 0;
-    stream_.open(temporary_, std::ios::binary | std::ios::trunc);
+    if (temporary_.empty())
+        stream_.open(path_, std::ios::binary);
+    else
+        stream_.open(temporary_, std::ios::binary | std::ios::trunc);
     if (!stream_) fail("cannot be created");
 }
 
 AtomicFile::~AtomicFile() {
     if (is_committed_) return;
     stream_.close();
-    std::remove(temporary_.c_str());
+    remove_temporary();
+}
+
+void AtomicFile::remove_temporary() {
+    if (!temporary_.empty()) std::remove(temporary_.c_str());
 }
 
 void AtomicFile::commit() {
@@ -48,14 +74,15 @@ void AtomicFile::commit() {
     stream_.close();
     if (has_failed) errno = cause;
     if (!stream_) fail("cannot be written");
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be put in place");
+    if (!temporary_.empty() && std::rename(temporary_.c_str(), target_.c_str()) != 0)
+        fail("cannot be put in place");
     is_committed_ = true;
 }
 
 void AtomicFile::fail(const std::string& what) {
     const std::string cause = errno != 0 ? std::strerror(errno) : "write error";
     stream_.close();
-    std::remove(temporary_.c_str());
+    remove_temporary();
     throw Error(ExitCode::output,
                 path_ + ": " + what + " (" + cause + "); check the folder and the free space");
 }

@@ -9,6 +9,7 @@ namespace coseg {
 
 /// Writes under a temporary name in the same folder. commit() gives the file its name and replaces an older
 /// one. Without commit (after an exception) the temporary file is removed, and an older file stays as it was.
+/// Where the path is a link, what it leads to is replaced. A pipe or a device is written to as it is.
 class AtomicFile {
   public:
     /// Throws Error(output) with path and cause if the temporary cannot be created.
@@ -24,9 +25,11 @@ class AtomicFile {
 
   private:
     [[noreturn]] void fail(const std::string& what);
+    void remove_temporary();
 
     std::string path_;
-    std::string temporary_;
+    std::string target_;     ///< what the path leads to
+    std::string temporary_;  ///< "" where it leads to a pipe or a device
     std::ofstream stream_;
     bool is_committed_ = false;
 };

@@ -80,7 +80,9 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
             },
             ""))
         ->capture_default_str();
-    app.add_option("--seed", settings.cluster.seed, "Of the sample of --links")->capture_default_str();
+    app.add_option("--seed", settings.cluster.seed, "Of the sample of --links")
+        ->check(unsigned_number)
+        ->capture_default_str();
     for (const auto& [name, value, help] :
          {std::tuple{"--alpha", &settings.cluster.alpha, "Weight of the l2,1 penalty"},
           std::tuple{"--beta", &settings.cluster.beta, "Weight of the l1 penalty"},

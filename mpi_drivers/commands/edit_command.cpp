@@ -22,6 +22,7 @@
 #include "mpi_drivers/process/checked_petsc.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/parallel/rank_limit.hpp"
 #include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
@@ -212,7 +213,7 @@ Command add_edit_command(CLI::App& parent) {
         ->capture_default_str();
     app->add_option("--ranks", options->ranks,
                     "Ranks of a command that is started without mpirun; 0: one for each core")
-        ->check(CLI::Range(0, 100000));
+        ->check(CLI::Range(0, most_ranks_of_a_launch));
     app->add_flag("--quiet", options->quiet, "No progress lines; the address, warnings and errors only");
     app->footer(
         "It serves 127.0.0.1 alone. A run with --state opens in seconds; one without is computed again. "

@@ -14,6 +14,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/mesh_files/off_format.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/option_checks.hpp"
 #include "src/base/error.hpp"
 #include "src/families/shape_families.hpp"
 
@@ -141,7 +142,9 @@ Command add_generate_command(CLI::App& parent) {
     app->add_option("--count", options->count, "Number of shapes")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
-    app->add_option("--seed", options->seed, "The same seed gives the same shapes")->capture_default_str();
+    app->add_option("--seed", options->seed, "The same seed gives the same shapes")
+        ->check(unsigned_number)
+        ->capture_default_str();
     app->add_option("--faces", options->faces, "Faces per shape, met within 15 %")
         ->capture_default_str()
         ->check(CLI::Range(2000, 20000));

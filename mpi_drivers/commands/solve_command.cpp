@@ -120,7 +120,9 @@ Command add_solve_command(CLI::App& parent) {
             ""))
         ->check(CLI::Range(0, 1 << 30))
         ->capture_default_str();
-    app->add_option("--seed", settings->seed, "Of the sample of --links")->capture_default_str();
+    app->add_option("--seed", settings->seed, "Of the sample of --links")
+        ->check(unsigned_number)
+        ->capture_default_str();
     add_enum_option(*app, "--variant", settings->variant, "Form of the problem; see docs/method.md");
     app->add_option("--feature", settings->feature, "Variant single-feature: which, counted from 1")
         ->check(CLI::Range(1, 1 << 30))

@@ -11,6 +11,7 @@
 #include "io/folders/state_lock.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
+#include "mpi_drivers/options/option_checks.hpp"
 #include "src/base/text.hpp"
 #include "src/parallel/record_exchange.hpp"
 
@@ -145,6 +146,7 @@ Command add_state_command(CLI::App& parent) {
     app->add_option("--unused-days", options->unused_days,
                     "prune: what no run has used for so many days goes")
         ->check(CLI::Range(0.0, 1e6))
+        ->check(finite_number)
         ->capture_default_str();
     app->add_flag("--dry-run", options->dry_run, "prune: only say what would be removed");
     return {app, [options](const Invocation& invocation) { run_state(invocation.world, *options); }};

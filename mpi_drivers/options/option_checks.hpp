@@ -2,7 +2,9 @@
 // Checks of option values that CLI11 leaves to its users.
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,16 @@ inline const CLI::Validator finite_number(
         double value = 0.0;
         if (CLI::detail::lexical_cast(text, value) && !std::isfinite(value)) return text + " is not finite";
         return std::string();
+    },
+    "");
+
+/// CLI11 takes the nearest number of 64 bits for one beyond them.
+inline const CLI::Validator unsigned_number(
+    [](std::string& text) {
+        if (text.starts_with("-")) return text + " is negative";
+        errno = 0;
+        std::strtoull(text.c_str(), nullptr, 0);
+        return errno == ERANGE ? text + " is more than 18446744073709551615" : std::string();
     },
     "");
 

@@ -1,7 +1,5 @@
 #include "mpi_drivers/options/run_option_table.hpp"
 
-#include <cerrno>
-#include <cstdlib>
 #include <sstream>
 #include <type_traits>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "mpi_drivers/options/option_checks.hpp"
 #include "mpi_drivers/options/weld_option.hpp"
 #include "src/descriptors/descriptor_table.hpp"
+#include "src/parallel/rank_limit.hpp"
 #include "src/pictures/shape_view.hpp"
 
 namespace coseg {
@@ -47,16 +46,6 @@ constexpr OptionKind kind_of() {
     if constexpr (std::is_same_v<T, std::vector<double>>) return OptionKind::numbers;
     return OptionKind::text;
 }
-
-/// CLI11 takes the nearest number of 64 bits for one beyond them.
-const CLI::Validator unsigned_number(
-    [](std::string& text) {
-        if (text.starts_with("-")) return text + " is negative";
-        errno = 0;
-        std::strtoull(text.c_str(), nullptr, 0);
-        return errno == ERANGE ? text + " is more than 18446744073709551615" : std::string();
-    },
-    "");
 
 const CLI::Validator links_text(
     [](std::string& text) {
@@ -193,7 +182,7 @@ void RunOptionTable::add_input_and_output(OptionSet set) {
         process.json_log);
     add_seed();
     app_.add_option("--ranks", ranks_, "Ranks of a run that is started without mpirun; 0: one for each core")
-        ->check(CLI::Range(0, 100000))
+        ->check(CLI::Range(0, most_ranks_of_a_launch))
         ->group(in_out_group);
     add_state(set);
     add({"config", Affects::nothing, in_out_group,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -13,6 +14,9 @@
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "src/base/error.hpp"
+#include "src/parallel/rank_limit.hpp"
 
 namespace coseg {
 
@@ -46,9 +50,18 @@ int usable_cores() {
     return sched_getaffinity(0, sizeof cores, &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
+int ranks_of_variable(const std::string& text) {
+    const std::optional<int> ranks = number_in(text);
+    if (ranks && *ranks >= 0 && *ranks <= most_ranks_of_a_launch)
+        return *ranks == 0 ? usable_cores() : *ranks;
+    std::fprintf(stderr, "coseg: COSEG_RANKS: '%s' is no number of ranks from 0 to %d\n", text.c_str(),
+                 most_ranks_of_a_launch);
+    std::exit(static_cast<int>(ExitCode::usage));
+}
+
 int wanted_ranks(const std::vector<std::string_view>& words) {
     if (const auto option = ranks_option(words)) return number_in(*option).value_or(1);
-    if (const char* variable = std::getenv("COSEG_RANKS")) return number_in(variable).value_or(1);
+    if (const char* variable = std::getenv("COSEG_RANKS")) return ranks_of_variable(variable);
     return usable_cores();
 }
 
@@ -58,8 +71,9 @@ bool asks_for_help(const std::vector<std::string_view>& words) {
 }
 
 /// On one machine: more ranks than Open MPI counts cores are fine, none is tied to a core that another
-/// program uses, and who is root has decided so already.
+/// program uses, and who is root has decided so already. mpirun itself looks for programs on PATH.
 void prepare_environment() {
+    setenv("PATH", "/usr/local/bin:/usr/bin:/bin", 0);
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
 }
@@ -78,7 +92,7 @@ void launch_on_all_cores(int argc, char** argv) {
                                     words.front()) != commands_in_parallel.end();
     if (!is_parallel || is_launched() || asks_for_help(words)) return;
     const int ranks = wanted_ranks(words);
-    if (ranks < 2) return;
+    if (ranks < 2 || ranks > most_ranks_of_a_launch) return;
     std::array<char, 4096> self{};
     if (readlink("/proc/self/exe", self.data(), self.size() - 1) <= 0) return;
     std::vector<std::string> line = {COSEG_MPIEXEC, "--quiet", "--oversubscribe",     "--bind-to",

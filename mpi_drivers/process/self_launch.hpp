@@ -14,9 +14,10 @@ bool is_launched();
 /// - it was started neither by mpirun nor by srun nor by another launcher that MPI knows of,
 /// - and RANKS is more than one. RANKS is `--ranks`, or else the environment variable COSEG_RANKS, or else
 ///   the number of cores that this process may use.
-/// Otherwise, and if there is no mpirun, the function returns and the command runs on one rank. A value that
-/// is no number of ranks is left to the command line's own check. The results have the same bytes in both
-/// cases.
+/// Otherwise, and if there is no mpirun, the function returns and the command runs on one rank. A value of
+/// --ranks that is no number of ranks up to most_ranks_of_a_launch is left to the command line's own check;
+/// one of COSEG_RANKS ends the process with a sentence and exit code 2. The results have the same bytes in
+/// both cases.
 void launch_on_all_cores(int argc, char** argv);
 
 /// The argument "@/dev/fd/N" for a list of meshes that the shell hands over as an open pipe, as in

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <new>
 #include <string>
 
 #include "src/base/error.hpp"
@@ -14,9 +15,9 @@ namespace {
 void check(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
     throw Error(ExitCode::internal, "Embree cannot prepare a mesh for rays (error " +
-                                        std::to_string(static_cast<int>(error)) +
-                                        "); check the memory available");
+                                        std::to_string(static_cast<int>(error)) + ")");
 }
 
 RTCGeometry triangles(RTCDevice device, const Eigen::Matrix3Xf& points, const Eigen::Matrix3Xi& corners) {

@@ -18,6 +18,13 @@ refuses "unknown subcommand" 2 "segment" "$COSEG" segment
 
 refuses "an option with an empty value" 2 "--out has an empty value" "$COSEG" run --parts 2 --out "" "$work"
 refuses "an empty value behind =" 2 "--state has an empty value" "$COSEG" run --parts 2 --state= --out "$work/x" "$work"
+refuses "a seed below 0" 2 "--seed" "$COSEG" generate table --count 1 --seed -1 --out "$work/x"
+refuses "a seed beyond 64 bits" 2 "--seed" "$COSEG" solve --seed 99999999999999999999999999 "$work/x"
+refuses "days that are no number" 2 "nan is not finite" "$COSEG" state prune "$work" --unused-days nan
+for ranks in abc -1 100001; do
+    refuses "COSEG_RANKS=$ranks" 2 "COSEG_RANKS: '$ranks' is no number of ranks" env COSEG_RANKS="$ranks" "$COSEG" run --parts 2 --out "$work/x" "$work"
+done
+refuses "too many ranks" 2 "--ranks" "$COSEG" run --parts 2 --ranks 100001 --out "$work/x" "$work"
 refuses "a gap that no sum can reach" 2 "'0' is no number from 1e-12 to 1" "$COSEG" run --parts 2 --gap 0 --out "$work/x" "$work"
 
 mkdir "$work/set"

@@ -39,6 +39,9 @@ done
 wait
 [ ! -e "$work/failed" ] || fail "one of processes that start side by side: $(cat "$work"/checked_?)"
 
+env -i LD_LIBRARY_PATH="${LD_LIBRARY_PATH-}" COSEG_RANKS=2 "$COSEG" run "${common[@]}" --out "$work/bare" "$work/set"
+expects 2 "$work/bare"
+
 refuses "a number of ranks that is none" 2 "--ranks" "$COSEG" run "${common[@]}" --ranks many --out "$work/x" "$work/set"
 refuses "a negative number of ranks" 2 "--ranks" "$COSEG" run "${common[@]}" --ranks -2 --out "$work/x" "$work/set"
 refuses "an error on all cores" 3 "no such file" "$COSEG" run "${common[@]}" --ranks 2 --out "$work/x" "$work/none"

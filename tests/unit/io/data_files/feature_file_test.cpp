@@ -79,6 +79,11 @@ TEST(FeatureFile, RefusesPartsThatDoNotFit) {
     EXPECT_TRUE(has(complaint([](FeatureFile& f) { f.overlaps.weight[1] = std::nan(""); }), "pair 1"));
     EXPECT_TRUE(has(complaint([](FeatureFile& f) { f.overlaps.first.pop_back(); }), "different lengths"));
     EXPECT_TRUE(has(complaint([](FeatureFile& f) { f.mesh_of[2] = 2000000000; }), "2000000000"));
+    const auto repeat = [](FeatureFile& f) {
+        f.overlaps.first[1] = f.overlaps.first[0];
+        f.overlaps.second[1] = f.overlaps.second[0];
+    };
+    EXPECT_TRUE(has(complaint(repeat), "'overlaps' has the pair of items"));
 }
 
 TEST(FeatureFile, RefusesNumbersThatAreNone) {
