@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "io/files/atomic_file.hpp"
+#include "io/folders/absolute_folder.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -43,10 +44,8 @@ constexpr std::array<const char*, 7> picture_files{"contact_sheet", "affinity.pn
 std::string absolute_directory(const std::string& directory) {
     if (directory.empty()) throw Error(ExitCode::output, "the output folder has no name; give one");
     std::error_code cause;
-    fs::path path = fs::absolute(directory, cause);  // fails where the current folder has been removed
-    if (!cause) path = fs::weakly_canonical(path, cause);
+    const fs::path path = absolute_folder(directory, cause);
     if (cause) fail(directory, "the output folder's path cannot be followed", cause);
-    if (!path.has_filename()) path = path.parent_path();
     if (path == path.root_path())
         throw Error(ExitCode::output, path.string() + ": cannot be an output folder; name another");
     return path.string();

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/files/atomic_file.hpp"
+#include "io/folders/absolute_folder.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -27,13 +28,11 @@ constexpr const char* mark_text = "coseg state 1\n";
     throw Error(ExitCode::output, path + ": " + what + " (" + cause.message() + "); name another --state");
 }
 
-std::string absolute_folder(const std::string& directory) {
+std::string state_path(const std::string& directory) {
     if (directory.empty()) throw Error(ExitCode::usage, "the state folder has no name; give one");
     std::error_code cause;
-    fs::path path = fs::absolute(directory, cause);  // fails where the current folder has been removed
-    if (!cause) path = fs::weakly_canonical(path, cause);
+    const fs::path path = absolute_folder(directory, cause);
     if (cause) fail(directory, "the state folder's path cannot be followed", cause);
-    if (!path.has_filename()) path = path.parent_path();
     return path.string();
 }
 
@@ -87,7 +86,7 @@ void sort_by_path(std::vector<StateFile>& files) {
 }  // namespace
 
 StateFolder StateFolder::make(const std::string& directory) {
-    StateFolder folder(absolute_folder(directory));
+    StateFolder folder(state_path(directory));
     std::error_code cause;
     fs::create_directories(folder.path_, cause);
     if (cause) fail(folder.path_, "the state folder cannot be made", cause);
@@ -102,7 +101,7 @@ StateFolder StateFolder::make(const std::string& directory) {
 }
 
 StateFolder StateFolder::open(const std::string& directory) {
-    StateFolder folder(absolute_folder(directory));
+    StateFolder folder(state_path(directory));
     if (!is_marked(folder.path_)) {
         throw Error(ExitCode::input,
                     folder.path_ + ": is no state folder (it has no file " + mark_name + "); check the path");
