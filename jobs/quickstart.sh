@@ -6,6 +6,12 @@
 #
 # The build folder is build/, shared with tests/run.sh; the results go to quickstart/.
 set -euo pipefail
+if (($# > 0)); then
+    sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"
+    if [[ $1 == --help || $1 == -h ]]; then exit 0; fi
+    echo "error: it takes no arguments" >&2
+    exit 2
+fi
 # shellcheck source=jobs/build_steps.sh
 source "$(dirname "${BASH_SOURCE[0]}")/build_steps.sh"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -144,8 +145,9 @@ void read_label(ActReader& act, Correction& correction) {
     for (const char* name : {"faces", "patches"}) {
         if (!act.has(name)) continue;
         const std::string text = act.text(name);
-        std::vector<int> numbers = in_place(act.where(), [&] { return parsed_ranges(text, most_faces); });
-        (std::string_view(name) == "faces" ? correction.faces : correction.patches) = std::move(numbers);
+        std::vector<NumberRange> ranges =
+            in_place(act.where(), [&] { return parsed_ranges(text, most_faces); });
+        (std::string_view(name) == "faces" ? correction.faces : correction.patches) = std::move(ranges);
     }
 }
 
@@ -460,20 +462,17 @@ std::string summary_of(const Correction& c) {
     return "";
 }
 
-std::string number_ranges(const std::vector<int>& numbers) {
+std::string number_ranges(const std::vector<NumberRange>& ranges) {
     std::string text;
-    for (std::size_t k = 0; k < numbers.size();) {
-        std::size_t end = k + 1;
-        while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
-        text += (text.empty() ? "" : ",") + std::to_string(numbers[k]);
-        if (end > k + 1) text += "-" + std::to_string(numbers[end - 1]);
-        k = end;
+    for (const NumberRange& range : ranges) {
+        text += (text.empty() ? "" : ",") + std::to_string(range.first);
+        if (range.last > range.first) text += "-" + std::to_string(range.last);
     }
     return text;
 }
 
-std::vector<int> parsed_ranges(std::string_view text, int most) {
-    std::vector<int> numbers;
+std::vector<NumberRange> parsed_ranges(std::string_view text, int most) {
+    std::vector<NumberRange> ranges;
     for (const std::string_view piece : pieces_of(text, ',')) {
         const std::size_t dash = piece.find('-');
         const std::optional<int> first = whole_number(piece.substr(0, dash));
@@ -481,38 +480,40 @@ std::vector<int> parsed_ranges(std::string_view text, int most) {
             dash == std::string_view::npos ? first : whole_number(piece.substr(dash + 1));
         if (!first || !last || *first < 0 || *last < *first || *last > most)
             refuse_file("'" + std::string(piece) + "' is no number or range of numbers such as 0-11");
-        if (!numbers.empty() && *first <= numbers.back())
+        if (!ranges.empty() && *first <= ranges.back().last)
             refuse_file("'" + std::string(piece) + "' does not ascend");
-        for (int n = *first; n <= *last; ++n) numbers.push_back(n);
+        if (!ranges.empty() && *first == ranges.back().last + 1)
+            ranges.back().last = *last;
+        else
+            ranges.push_back({*first, *last});
     }
-    return numbers;
+    return ranges;
 }
 
-std::string label_runs(const std::vector<int>& labels) {
+std::string label_runs(const std::vector<LabelRun>& runs) {
     std::string text;
-    for (std::size_t k = 0; k < labels.size();) {
-        std::size_t end = k + 1;
-        while (end < labels.size() && labels[end] == labels[k]) ++end;
-        text += (text.empty() ? "" : ",") + std::to_string(labels[k]);
-        if (end > k + 1) text += "*" + std::to_string(end - k);
-        k = end;
+    for (const LabelRun& run : runs) {
+        text += (text.empty() ? "" : ",") + std::to_string(run.label);
+        if (run.count > 1) text += "*" + std::to_string(run.count);
     }
     return text;
 }
 
-std::vector<int> parsed_runs(std::string_view text) {
-    std::vector<int> labels;
+std::vector<LabelRun> parsed_runs(std::string_view text) {
+    std::vector<LabelRun> runs;
+    std::int64_t total = 0;
     for (const std::string_view piece : pieces_of(text, ',')) {
         const std::size_t star = piece.find('*');
         const std::optional<int> label = whole_number(piece.substr(0, star));
         const std::optional<int> count =
             star == std::string_view::npos ? std::optional<int>(1) : whole_number(piece.substr(star + 1));
         if (!label || !count || *label < 0 || *label >= most_part_numbers || *count < 1 ||
-            *count > most_faces - static_cast<int>(labels.size()))
+            *count > most_faces - total)
             refuse_file("'" + std::string(piece) + "' is no run of labels such as 2*12");
-        labels.insert(labels.end(), static_cast<std::size_t>(*count), *label);
+        total += *count;
+        runs.push_back({*label, *count});
     }
-    return labels;
+    return runs;
 }
 
 }  // namespace coseg

@@ -39,11 +39,11 @@ std::string summary_of(const Correction& correction);
 
 /// Ascending numbers as ranges: "0-11,15". The inverse throws Error(input) where a text is none, or has a
 /// number above `most`.
-std::string number_ranges(const std::vector<int>& numbers);
-std::vector<int> parsed_ranges(std::string_view text, int most);
+std::string number_ranges(const std::vector<NumberRange>& ranges);
+std::vector<NumberRange> parsed_ranges(std::string_view text, int most);
 
 /// Labels as runs: "0*12,3,0*2". The inverse throws Error(input) where a text is none.
-std::string label_runs(const std::vector<int>& labels);
-std::vector<int> parsed_runs(std::string_view text);
+std::string label_runs(const std::vector<LabelRun>& runs);
+std::vector<LabelRun> parsed_runs(std::string_view text);
 
 }  // namespace coseg

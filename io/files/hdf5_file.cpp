@@ -456,23 +456,54 @@ Eigen::MatrixXd Hdf5Reader::read_matrix(const std::string& name) const {
                                              static_cast<Eigen::Index>(extent[0]));
 }
 
-std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
-    const Handle set = handles_->dataset(path_, name);
-    const Handle stored(H5Dget_type(set.id()), H5Tclose);
-    if (H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) <= 0)
-        refuse(path_, "the dataset '" + name + "' does not hold texts");
+namespace {
+
+/// Texts of any length, as this program writes them. Nothing where they cannot be read.
+std::optional<std::vector<std::string>> texts_of_any_length(hid_t set, std::size_t count) {
     const Handle type = text_type();
-    std::vector<char*> pointers(handles_->count(path_, name, set, shape(name)), nullptr);
-    if (!pointers.empty() && H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                     static_cast<void*>(pointers.data())) < 0) {
-        refuse(path_, "the dataset '" + name + "' cannot be read");
-    }
+    std::vector<char*> pointers(count, nullptr);
+    if (count > 0 &&
+        H5Dread(set, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<void*>(pointers.data())) < 0)
+        return std::nullopt;
     std::vector<std::string> texts;
     for (char* pointer : pointers) {
         texts.emplace_back(pointer != nullptr ? pointer : "");
         H5free_memory(pointer);
     }
     return texts;
+}
+
+/// Texts that are filled up to one length, by zero bytes or by spaces, as NumPy and Fortran write them: the
+/// library does not convert these to the others.
+std::optional<std::vector<std::string>> texts_of_one_length(hid_t set, hid_t stored, std::size_t count) {
+    const std::size_t length = H5Tget_size(stored);
+    std::string bytes(count * length, '\0');
+    if (count > 0 && H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
+        return std::nullopt;
+    const bool has_spaces = H5Tget_strpad(stored) == H5T_STR_SPACEPAD;
+    std::vector<std::string> texts;
+    for (std::size_t k = 0; k < count; ++k) {
+        std::string text = bytes.substr(k * length, length);
+        text.resize(std::min(text.find('\0'), text.size()));
+        if (has_spaces) text.resize(text.find_last_not_of(' ') + 1);
+        texts.push_back(std::move(text));
+    }
+    return texts;
+}
+
+}  // namespace
+
+std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
+    const Handle set = handles_->dataset(path_, name);
+    const Handle stored(H5Dget_type(set.id()), H5Tclose);
+    if (H5Tget_class(stored.id()) != H5T_STRING)
+        refuse(path_, "the dataset '" + name + "' does not hold texts");
+    const std::size_t count = handles_->count(path_, name, set, shape(name));
+    std::optional<std::vector<std::string>> texts = H5Tis_variable_str(stored.id()) > 0
+                                                        ? texts_of_any_length(set.id(), count)
+                                                        : texts_of_one_length(set.id(), stored.id(), count);
+    if (!texts) refuse(path_, "the dataset '" + name + "' cannot be read");
+    return std::move(*texts);
 }
 
 std::int64_t Hdf5Reader::integer(const std::string& name) const {

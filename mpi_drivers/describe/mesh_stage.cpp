@@ -20,14 +20,17 @@ namespace coseg {
 
 namespace {
 
-/// A mesh that cannot be used.
+/// A mesh that could not be described.
 struct Failure {
     int entry = 0;
     ExitCode code = ExitCode::input;
     std::string sentence;
+    /// Whether it is for the machine's sake and not for the mesh's: without memory or a state folder that can
+    /// be written, the other meshes would fare alike, and which of them do would depend on the ranks.
+    bool of_machine = false;
     static constexpr auto fields() {
         return std::tuple(field("entry", &Failure::entry), field("code", &Failure::code),
-                          field("sentence", &Failure::sentence));
+                          field("sentence", &Failure::sentence), field("of_machine", &Failure::of_machine));
     }
 };
 
@@ -45,21 +48,21 @@ std::vector<int> schedule(const std::vector<MeshEntry>& entries) {
     return order;
 }
 
-/// False if the state folder cannot be written: the other meshes would fare alike.
+/// False where the other meshes need not be tried.
 bool attempt_one(Attempt& attempt, int number, const MeshEntry& entry, const DescriptionOptions& options,
                  const StateFolder* folder) {
     try {
         attempt.described.push_back(kept_description(number, entry, options, folder));
     } catch (const Error& error) {
-        attempt.failed.push_back({number, error.code(), error.what()});
-        return error.code() != ExitCode::output;
+        attempt.failed.push_back({number, error.code(), error.what(), error.code() == ExitCode::output});
     } catch (const std::bad_alloc&) {
         attempt.failed.push_back(
-            {number, ExitCode::internal, entry.path + ": out of memory; use more nodes"});
+            {number, ExitCode::internal,
+             entry.path + ": out of memory; use more nodes, fewer ranks on each, or a coarser mesh", true});
     } catch (const std::exception& error) {
         attempt.failed.push_back({number, ExitCode::internal, entry.path + ": " + error.what()});
     }
-    return true;
+    return attempt.failed.empty() || !attempt.failed.back().of_machine;
 }
 
 /// The mesh and its steps as spans of the stage; a mesh that failed has no steps.
@@ -130,9 +133,9 @@ std::vector<Failure> gather_failures(const Comm& comm, const Attempt& attempt) {
     return failures;
 }
 
-void refuse_if_unwritable(const std::vector<Failure>& failures) {
+void end_if_of_machine(const std::vector<Failure>& failures) {
     for (const Failure& failure : failures) {
-        if (failure.code == ExitCode::output) throw AgreedError(failure.code, failure.sentence);
+        if (failure.of_machine) throw AgreedError(failure.code, failure.sentence);
     }
 }
 
@@ -218,7 +221,7 @@ DescribeTotals describe_into_state(const Comm& comm, const std::vector<MeshEntry
                                    StageLog& log) {
     const Attempt attempt = describe_dealt_meshes(comm, entries, options, &state, Keep::nothing, log);
     const std::vector<Failure> failures = gather_failures(comm, attempt);
-    refuse_if_unwritable(failures);
+    end_if_of_machine(failures);
     end_if_asked(comm, state, attempt, entries.size());
     if (!failures.empty()) refuse_if_unusable(failures, entries.size(), strict);
     DescribeTotals totals;
@@ -272,7 +275,7 @@ UsableMeshes describe_usable(const Comm& comm, const std::vector<MeshEntry>& ent
         const DescriptionOptions counted = with_oversegmentations(options, usable.entries.size());
         Attempt attempt = describe_dealt_meshes(comm, usable.entries, counted, state, Keep::all, log);
         const std::vector<Failure> failures = gather_failures(comm, attempt);
-        refuse_if_unwritable(failures);
+        end_if_of_machine(failures);
         if (state != nullptr) end_if_asked(comm, *state, attempt, usable.entries.size());
         refuse_if_unusable(failures, usable.entries.size(), strict);
         set_aside(usable.entries, failures, usable.set_aside);

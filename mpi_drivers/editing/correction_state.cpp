@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -158,8 +157,8 @@ void CorrectionState::apply(const Correction& c, int act) {
 void CorrectionState::say(const Correction& c, int act) {
     require_live(c.part, c.where);
     const int mesh = mesh_of(c.shape, c.where);
-    if (!c.faces.empty()) check_place({c.shape, c.faces.back(), -1}, c.where);
-    if (!c.patches.empty()) check_place({c.shape, -1, c.patches.back()}, c.where);
+    if (!c.faces.empty()) check_place({c.shape, c.faces.back().last, -1}, c.where);
+    if (!c.patches.empty()) check_place({c.shape, -1, c.patches.back().last}, c.where);
     says_something_ = true;
     confirmed_[at(mesh)] = false;
     SaidFaces* said = said_of(mesh);
@@ -168,28 +167,30 @@ void CorrectionState::say(const Correction& c, int act) {
         said->part[face] = c.part;
         said->act[face] = act;
     };
-    for (const int face : c.faces) set(at(face));
+    for (const NumberRange& faces : c.faces) {
+        for (int face = faces.first; face <= faces.last; ++face) set(at(face));
+    }
     if (c.patches.empty()) return;
     const auto local = std::find_if(base_.collection.local.begin(), base_.collection.local.end(),
                                     [&](const MeshDescription& m) { return m.mesh == mesh; });
     const std::vector<int> patch = patch_of_input_face(*local);
     for (std::size_t f = 0; f < patch.size(); ++f) {
-        if (std::binary_search(c.patches.begin(), c.patches.end(), patch[f])) set(f);
+        if (contains(c.patches, patch[f])) set(f);
     }
 }
 
 void CorrectionState::confirm(const Correction& c, int act) {
     const int mesh = mesh_of(c.shape, c.where);
     const int faces = base_.collection.meshes[at(mesh)].input_faces;
-    if (static_cast<int>(c.labels.size()) != faces)
-        refuse(c.where, "it has " + std::to_string(c.labels.size()) + " labels, but " + c.shape + " has " +
-                            std::to_string(faces) + " faces");
-    for (const int part : std::set<int>(c.labels.begin(), c.labels.end())) require_live(part, c.where);
+    if (label_count(c.labels) != faces)
+        refuse(c.where, "it has " + std::to_string(label_count(c.labels)) + " labels, but " + c.shape +
+                            " has " + std::to_string(faces) + " faces");
+    for (const LabelRun& run : c.labels) require_live(run.label, c.where);
     confirmed_[at(mesh)] = true;
     says_something_ = true;
     SaidFaces* said = said_of(mesh);
     if (said == nullptr) return;
-    said->part = c.labels;
+    said->part = labels_of(c.labels);
     std::fill(said->act.begin(), said->act.end(), act);
 }
 

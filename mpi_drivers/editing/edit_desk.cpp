@@ -204,8 +204,8 @@ std::string EditDesk::labels_text(int mesh) {
     JsonTree tree;
     const JsonPlace root = tree.root();
     root.member("revision").set(std::int64_t{session_.revision()});
-    root.member("labels").set(label_runs(labels.part));
-    root.member("patches").set(label_runs(labels.patch));
+    root.member("labels").set(label_runs(runs_of(labels.part)));
+    root.member("patches").set(label_runs(runs_of(labels.patch)));
     return tree.line();
 }
 

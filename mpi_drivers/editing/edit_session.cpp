@@ -222,7 +222,7 @@ Correction EditSession::label_of_region(int mesh, int face, FaceRegion region, i
     });
     correction.shape = base_.collection.meshes[at(mesh)].name;
     if (region == FaceRegion::face) {
-        correction.faces = {face};
+        correction.faces = {{face, face}};
         return correction;
     }
     std::vector<std::vector<int>> mine;
@@ -236,8 +236,8 @@ Correction EditSession::label_of_region(int mesh, int face, FaceRegion region, i
                 mine.push_back(piece_with(base_.collection.local[k].input, labels.part, face));
         }
     });
-    std::vector<int> numbers = all_gather_records(comm_, mine).front();
-    (region == FaceRegion::patch ? correction.patches : correction.faces) = std::move(numbers);
+    (region == FaceRegion::patch ? correction.patches : correction.faces) =
+        ranges_of(all_gather_records(comm_, mine).front());
     return correction;
 }
 
@@ -246,7 +246,7 @@ Correction EditSession::confirmation_of(int mesh) {
     correction.kind = CorrectionKind::confirm;
     agree(comm_, [&] { refuse_unknown_shape(base_.collection, mesh); });
     correction.shape = base_.collection.meshes[at(mesh)].name;
-    correction.labels = labels(mesh).part;
+    correction.labels = runs_of(labels(mesh).part);
     return correction;
 }
 

@@ -8,6 +8,7 @@
 
 #include "src/base/enum_names.hpp"
 #include "src/records/fields.hpp"
+#include "src/records/number_runs.hpp"
 
 namespace coseg {
 
@@ -55,15 +56,15 @@ struct Correction {
     CorrectionKind kind = CorrectionKind::label;
     /// label, merge, split, name, color, absent: the part. level: how many parts.
     int part = -1;
-    int into = -1;             ///< merge: the part that both become
-    std::string shape;         ///< label, confirm, absent
-    std::vector<int> faces;    ///< label: of the file, ascending
-    std::vector<int> patches;  ///< label: as in CorrectedPlace, ascending
-    std::vector<int> labels;   ///< confirm: one for each face of the file
-    std::string text;          ///< name: the name; color: #rrggbb
-    CorrectedPlace first;      ///< must_link, cannot_link
-    CorrectedPlace second;     ///< likewise
-    std::string where;         ///< where it stands, for messages: "corrections.json, act 3"
+    int into = -1;                     ///< merge: the part that both become
+    std::string shape;                 ///< label, confirm, absent
+    std::vector<NumberRange> faces;    ///< label: of the file, ascending
+    std::vector<NumberRange> patches;  ///< label: as in CorrectedPlace, ascending
+    std::vector<LabelRun> labels;      ///< confirm: one for each face of the file
+    std::string text;                  ///< name: the name; color: #rrggbb
+    CorrectedPlace first;              ///< must_link, cannot_link
+    CorrectedPlace second;             ///< likewise
+    std::string where;                 ///< where it stands, for messages: "corrections.json, act 3"
     static constexpr auto fields() {
         return std::tuple(field("kind", &Correction::kind), field("part", &Correction::part),
                           field("into", &Correction::into), field("shape", &Correction::shape),

@@ -55,3 +55,13 @@ if script -qec true /dev/null >"$work/out" 2>&1 </dev/null; then # containers ma
     grep -q "describe.*%.*s left" "$work/log" || fail "no share done and time left on a terminal"
 fi
 echo "ok: forms of the log"
+
+"$COSEG_SOURCE/jobs/quickstart.sh" --help >"$work/quickstart" || fail "quickstart.sh --help"
+grep -q "fresh clone" "$work/quickstart" || fail "quickstart.sh --help says nothing"
+for script in "$COSEG_SOURCE"/jobs/*.sbatch; do
+    if env -u COSEG_HOME -u SLURM_SUBMIT_DIR bash "$script" 2>"$work/error"; then fail "$script outside a job"; fi
+    grep -q "give this file to sbatch" "$work/error" || fail "$script outside a job says: $(cat "$work/error")"
+    if COSEG_HOME=$work bash "$script" 2>"$work/error"; then fail "$script with another folder"; fi
+    grep -q "$work/jobs/in_allocation.sh" "$work/error" || fail "$script with another folder says: $(cat "$work/error")"
+done
+echo "ok: job scripts where they cannot work"

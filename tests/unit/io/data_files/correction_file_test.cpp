@@ -47,10 +47,13 @@ TEST(CorrectionFile, HasEveryKindOfActAgainAsItWasWritten) {
 }
 
 TEST(CorrectionFile, WritesNumbersAsRangesAndLabelsAsRuns) {
-    EXPECT_EQ(number_ranges({0, 1, 2, 7, 9, 10}), "0-2,7,9-10");
-    EXPECT_EQ(parsed_ranges("0-2,7,9-10", 10), (std::vector<int>{0, 1, 2, 7, 9, 10}));
-    EXPECT_EQ(label_runs({4, 4, 0, 4}), "4*2,0,4");
-    EXPECT_EQ(parsed_runs("4*2,0,4"), (std::vector<int>{4, 4, 0, 4}));
+    const std::vector<NumberRange> ranges = {{0, 2}, {7, 7}, {9, 10}};
+    EXPECT_EQ(number_ranges(ranges), "0-2,7,9-10");
+    EXPECT_EQ(parsed_ranges("0-2,7,9-10", 10), ranges);
+    EXPECT_EQ(parsed_ranges("0,1-2,7,9,10", 10), ranges);
+    const std::vector<LabelRun> runs = {{4, 2}, {0, 1}, {4, 1}};
+    EXPECT_EQ(label_runs(runs), "4*2,0,4");
+    EXPECT_EQ(parsed_runs("4*2,0,4"), runs);
     for (const char* bad : {"", "3-1", "1,1", "2,1", "-1", "x", "1-", "11", "1 2", "0-99999999999"})
         EXPECT_THROW(parsed_ranges(bad, 10), Error) << bad;
     for (const char* bad : {"", "1*0", "1*", "*2", "-1", "0*300000000", "0*-2", "1000"})

@@ -189,6 +189,37 @@ TEST(Hdf5File, ReadsNoOtherFile) {
     EXPECT_EQ(Hdf5Reader(path, Hdf5Origin::foreign).read<double>("a"), (std::vector<double>{0, 0}));
 }
 
+/// Three texts of five bytes each, as another program writes them.
+std::string file_of_filled_texts(const TemporaryFolder& folder, const std::string& bytes, H5T_str_t filled) {
+    const std::string path = folder.path("texts.h5");
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, 5);
+    H5Tset_strpad(type, filled);
+    const hsize_t count = bytes.size() / 5;
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t set = H5Dcreate2(file, "a", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()), 0);
+    H5Dclose(set);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Fclose(file);
+    return path;
+}
+
+TEST(Hdf5File, ReadsTextsThatAreFilledUpToOneLength) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> expected = {"one", "", "seven"};
+    const std::string zeros("one\0\0\0\0\0\0\0seven", 15);
+    EXPECT_EQ(
+        Hdf5Reader(file_of_filled_texts(folder, zeros, H5T_STR_NULLPAD), Hdf5Origin::foreign).read_texts("a"),
+        expected);
+    EXPECT_EQ(
+        Hdf5Reader(file_of_filled_texts(folder, "one       seven", H5T_STR_SPACEPAD), Hdf5Origin::foreign)
+            .read_texts("a"),
+        expected);
+}
+
 TEST(Hdf5File, AnAttributeOfManyValuesIsNoNumber) {
     const TemporaryFolder folder;
     const Hdf5Reader file(foreign_file(folder, {1000}, 0), Hdf5Origin::foreign);
