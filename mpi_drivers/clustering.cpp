@@ -121,7 +121,7 @@ CutResult cut_clusters(const Comm& comm, const ClusterData& data, const SolveRes
     CutOptions options;
     options.parts = settings.parts;
     options.form = settings.affinity;
-    options.minima_rule = !neighbors.empty();
+    options.minima_rule = any_rank(comm, !neighbors.empty());
     options.starts = single_start(settings.parts, settings.adjacency);
     return partition_patches(comm, {solution.coefficients, neighbors, overlaps, mesh_of, area}, options);
 }
