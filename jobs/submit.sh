@@ -71,7 +71,7 @@ state=$(realpath -m "$state")
 COSEG_HOME=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 export COSEG_HOME
 common=(--parsable --ntasks="$tasks" --time="$limit" --export=ALL)
-run=(--parts "$parts" --state "$state" --out "$out" --force "${options[@]}" "$collection")
+run=(--parts "$parts" --state "$state" --out "$out" --force "$collection" "${options[@]}")
 
 # submit ARGUMENT... : sbatch, or what it would be; prints the job's number.
 submit() {
@@ -85,13 +85,31 @@ submit() {
     fi
 }
 
+# options_of_descriptions : sets `describe` to those of the run's options that coseg describe has too, with their values. Shapes that
+# were described with others would be described again by the run.
+options_of_descriptions() {
+    local program=${COSEG:-$COSEG_HOME/build/bin/coseg} word known kept=
+    describe=()
+    ((${#options[@]} > 0)) || return 0
+    known=$("$program" describe --help | grep -oE -- '--[a-z-]+') || { echo "error: $program is no program; build coseg, or say where it is with COSEG=PATH" >&2; exit 2; }
+    for word in "${options[@]}"; do
+        [[ $word != -- ]] || break
+        if [[ $word == --* ]]; then
+            kept=
+            if grep -qxF -- "${word%%=*}" <<<"$known"; then kept=1; fi
+        fi
+        [[ -z $kept ]] || describe+=("$word")
+    done
+}
+
 if ((count <= small_collection)); then
     job=$(submit "${common[@]}" "$COSEG_HOME/jobs/coseg.sbatch" run "${run[@]}")
     echo "job $job: $count meshes into $parts parts, results in $out"
 else
     shards=$(((count + meshes_per_shard - 1) / meshes_per_shard))
     ((shards <= most_shards)) || shards=$most_shards
-    array=$(submit "${common[@]}" --array=0-$((shards - 1)) "$COSEG_HOME/jobs/descriptors.sbatch" --state "$state" "$collection")
+    options_of_descriptions
+    array=$(submit "${common[@]}" --array=0-$((shards - 1)) "$COSEG_HOME/jobs/descriptors.sbatch" --state "$state" "$collection" "${describe[@]}")
     job=$(submit "${common[@]}" --dependency="afterok:${array%%;*}" "$COSEG_HOME/jobs/solve.sbatch" "${run[@]}")
     echo "array $array: $count meshes in $shards shards; then job $job: $parts parts, results in $out"
 fi
