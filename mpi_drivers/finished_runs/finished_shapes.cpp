@@ -166,13 +166,13 @@ PictureMesh standing_picture(const LabelledMesh& shape, const std::vector<Color>
 }
 
 std::vector<int> agree_on_truth(const Comm& comm, const std::vector<LabelledMesh>& shapes, int parts) {
-    const double largest = all_max(comm, static_cast<double>(largest_truth_label(shapes)));
-    if (largest < 0.0) throw AgreedError(ExitCode::input, "no shape has its truth in the folder of --truth");
+    const int largest = all_max(comm, largest_truth_label(shapes));
+    if (largest < 0) throw AgreedError(ExitCode::input, "no shape has its truth in the folder of --truth");
     if (largest >= most_truth_labels) {
         throw AgreedError(ExitCode::input, "the truth has labels of " + std::to_string(most_truth_labels) +
                                                " and more; number them from 0");
     }
-    const int labels = static_cast<int>(largest) + 1;
+    const int labels = largest + 1;
     ExactSum gains(static_cast<std::size_t>(parts) * static_cast<std::size_t>(labels));
     for (const LabelledMesh& shape : shapes) add_agreement(gains, shape, labels);
     gains.reduce(comm);

@@ -206,10 +206,9 @@ std::optional<SolveIterate> SolverCheckpointFiles::find_iterate() {
 
 CheckpointAction SolverCheckpointFiles::turn() {
     const std::chrono::duration<double> since = Clock::now() - last_write_;
-    const double due = comm_.is_root() && since.count() >= state_.checkpoint_seconds() ? 1.0 : 0.0;
-    const double most = all_max(comm_, state_.stop_is_raised() ? 2.0 : due);
-    if (most == 0.0) return CheckpointAction::go_on;
-    return most == 1.0 ? CheckpointAction::keep : CheckpointAction::keep_and_stop;
+    const bool due = any_rank(comm_, comm_.is_root() && since.count() >= state_.checkpoint_seconds());
+    if (any_rank(comm_, state_.stop_is_raised())) return CheckpointAction::keep_and_stop;
+    return due ? CheckpointAction::keep : CheckpointAction::go_on;
 }
 
 void SolverCheckpointFiles::keep_iterate(const SolveIterate& iterate) {

@@ -30,10 +30,9 @@ void check_contexts(const std::vector<ShapeWordInput>& local, int words) {
 
 /// The number of entries of a shape context in the whole collection; 0 if there is no mesh.
 Eigen::Index agreed_dimension(const Comm& comm, const std::vector<ShapeWordInput>& local) {
-    double largest = 0.0;
-    for (const ShapeWordInput& mesh : local)
-        largest = std::max(largest, static_cast<double>(mesh.context->rows()));
-    const auto dims = static_cast<Eigen::Index>(all_max(comm, largest));
+    std::int64_t largest = 0;
+    for (const ShapeWordInput& mesh : local) largest = std::max<std::int64_t>(largest, mesh.context->rows());
+    const Eigen::Index dims = all_max(comm, largest);
     agree(comm, [&] {
         for (const ShapeWordInput& mesh : local) {
             if (mesh.context->rows() == dims) continue;

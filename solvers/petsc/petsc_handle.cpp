@@ -17,6 +17,12 @@ void check(PetscErrorCode code, const char* call) {
     throw Error(ExitCode::internal, sentence);
 }
 
+int rank_count(PetscObject object) noexcept {
+    int ranks = 0;
+    MPI_Comm_size(PetscObjectComm(object), &ranks);
+    return ranks;
+}
+
 PetscInt petsc_int(std::int64_t value, const char* what) {
     if (value < 0 || value > PETSC_MAX_INT) {
         throw Error(ExitCode::internal,

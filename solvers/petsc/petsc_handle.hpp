@@ -5,8 +5,9 @@
 #include <slepceps.h>
 
 #include <cstdint>
-#include <exception>
 #include <utility>
+
+#include "src/parallel/comm.hpp"
 
 namespace coseg {
 
@@ -18,9 +19,11 @@ void check(PetscErrorCode code, const char* call);
 /// does not fit.
 PetscInt petsc_int(std::int64_t value, const char* what);
 
-/// Owns one handle and destroys it. Destruction is collective over the object's communicator, and a rank that
-/// unwinds alone must not enter a collective call. While an exception is under way, the handle is therefore
-/// given up instead of destroyed.
+/// How many ranks own a PETSc object together.
+int rank_count(PetscObject object) noexcept;
+
+/// Owns one handle and destroys it. Destruction is collective over the object's communicator: where
+/// `may_free_together` forbids it, the handle is given up instead.
 template <class Handle, PetscErrorCode (*Destroy)(Handle*)>
 class PetscHandle {
   public:
@@ -35,7 +38,8 @@ class PetscHandle {
     PetscHandle(const PetscHandle&) = delete;
     PetscHandle& operator=(const PetscHandle&) = delete;
     ~PetscHandle() {
-        if (handle_ != nullptr && std::uncaught_exceptions() == 0) Destroy(&handle_);
+        if (handle_ != nullptr && may_free_together(rank_count(reinterpret_cast<PetscObject>(handle_))))
+            Destroy(&handle_);
     }
 
     [[nodiscard]] Handle get() const noexcept { return handle_; }

@@ -68,7 +68,7 @@ std::vector<ColumnRound> joined_rounds(const std::vector<std::vector<ColumnRound
 }
 
 std::vector<ColumnRound> joined_rounds(const Comm& comm, const std::vector<std::vector<ColumnRound>>& tiles) {
-    const auto count = static_cast<std::size_t>(all_max(comm, static_cast<double>(longest(tiles))));
+    const auto count = at(all_max(comm, static_cast<std::int64_t>(longest(tiles))));
     std::vector<ColumnRound> all = joined_rounds(tiles);
     all.resize(count, all.empty() ? ColumnRound{} : all.back());
     ExactSum sums(2 * count);

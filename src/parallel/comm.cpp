@@ -22,8 +22,7 @@ Comm::~Comm() {
     if (comm_ != MPI_COMM_NULL) {
         int finalized = 0;
         MPI_Finalized(&finalized);
-        // A rank that unwinds alone must not enter a collective call: the others would wait for it.
-        if (finalized == 0 && std::uncaught_exceptions() == 0) MPI_Comm_free(&comm_);
+        if (finalized == 0 && may_free_together(size_)) MPI_Comm_free(&comm_);
     }
 }
 
@@ -98,6 +97,8 @@ std::vector<T> all_gather_of(const Comm& comm, std::span<const T> local, MPI_Dat
 }
 
 }  // namespace
+
+bool may_free_together(int ranks) noexcept { return ranks == 1 || std::uncaught_exceptions() == 0; }
 
 void agree(const Comm& comm, const std::function<void()>& step) {
     const std::optional<Failure> failure = run_and_catch(step);
@@ -180,6 +181,14 @@ double all_max(const Comm& comm, double local) {
     MPI_Allreduce(&local, &result, 1, MPI_DOUBLE, MPI_MAX, comm.raw());
     return result;
 }
+
+std::int64_t all_max(const Comm& comm, std::int64_t local) {
+    std::int64_t result = 0;
+    MPI_Allreduce(&local, &result, 1, MPI_INT64_T, MPI_MAX, comm.raw());
+    return result;
+}
+
+int all_max(const Comm& comm, int local) { return static_cast<int>(all_max(comm, std::int64_t{local})); }
 
 double all_min(const Comm& comm, double local) {
     double result = 0.0;

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "src/base/error.hpp"
@@ -44,8 +46,13 @@ class Comm {
     int size_ = 1;
 };
 
+/// Whether a destructor may free what the `ranks` of a communicator own together. Freeing is collective, and a
+/// rank that unwinds alone must not begin it: the others would wait for it.
+bool may_free_together(int ranks) noexcept;
+
 /// Runs `step` on this rank. If it throws on any rank, all ranks throw the same AgreedError, that of the
-/// lowest failing rank. `step` must not communicate. Collective.
+/// lowest failing rank. `step` must not make a collective call; it may draw numbers from
+/// a SharedCounter. Collective.
 void agree(const Comm& comm, const std::function<void()>& step);
 
 /// MPI 3 counts the values of a message in int; what is longer goes in several messages.
@@ -64,7 +71,11 @@ std::vector<int> all_gather(const Comm& comm, std::span<const int> local);
 std::vector<std::int64_t> all_gather(const Comm& comm, std::span<const std::int64_t> local,
                                      std::int64_t longest = longest_message);
 
-/// The same for bytes.
+/// The same on the root alone; elsewhere nothing. Collective.
+template <class T>
+std::vector<T> gather(const Comm& comm, std::span<const T> local);
+
+/// The values of all ranks as bytes, on all ranks. Collective.
 std::vector<std::byte> all_gather_bytes(const Comm& comm, std::span<const std::byte> local,
                                         std::int64_t longest = longest_message);
 /// The same on the root alone; elsewhere nothing. Collective.
@@ -78,7 +89,18 @@ bool any_rank(const Comm& comm, bool local);
 bool every_rank(const Comm& comm, bool local);
 
 double all_max(const Comm& comm, double local);
+std::int64_t all_max(const Comm& comm, std::int64_t local);
+int all_max(const Comm& comm, int local);
 double all_min(const Comm& comm, double local);
 std::int64_t all_sum(const Comm& comm, std::int64_t local);
+
+template <class T>
+std::vector<T> gather(const Comm& comm, std::span<const T> local) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::vector<std::byte> bytes = gather_bytes(comm, std::as_bytes(local));
+    std::vector<T> values(bytes.size() / sizeof(T));
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+}
 
 }  // namespace coseg

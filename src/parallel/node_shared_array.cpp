@@ -55,8 +55,9 @@ bool NodeSharedMemory::open_window(std::size_t bytes) {
     MPI_Comm_set_errhandler(here.raw(), MPI_ERRORS_RETURN);
     const auto own = static_cast<MPI_Aint>(here.is_root() ? rounded_up(bytes) + alignment : 0);
     void* base = nullptr;
-    if (MPI_Win_allocate_shared(own, 1, MPI_INFO_NULL, here.raw(), &base, &window_) != MPI_SUCCESS)
-        return false;
+    const int outcome = MPI_Win_allocate_shared(own, 1, MPI_INFO_NULL, here.raw(), &base, &window_);
+    MPI_Comm_set_errhandler(here.raw(), MPI_ERRORS_ARE_FATAL);
+    if (outcome != MPI_SUCCESS) return false;
     MPI_Aint size = 0;
     int unit = 1;
     MPI_Win_shared_query(window_, 0, &size, &unit, &base);
@@ -87,8 +88,8 @@ void NodeSharedMemory::fence() const {
 }
 
 NodeSharedMemory::~NodeSharedMemory() {
-    // Freeing is collective, see Comm::~Comm; a window that not all ranks of the node have cannot be freed.
-    if (window_ == MPI_WIN_NULL || fell_back_ || std::uncaught_exceptions() > 0) return;
+    // A window that not all ranks of the node have cannot be freed.
+    if (window_ == MPI_WIN_NULL || fell_back_ || !may_free_together(ranks_.here().size())) return;
     int finalized = 0;
     MPI_Finalized(&finalized);
     if (finalized != 0) return;

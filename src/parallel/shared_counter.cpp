@@ -6,7 +6,7 @@
 
 namespace coseg {
 
-SharedCounter::SharedCounter(const Comm& comm) {
+SharedCounter::SharedCounter(const Comm& comm) : ranks_(comm.size()) {
     const MPI_Aint bytes = comm.is_root() ? static_cast<MPI_Aint>(sizeof(std::int64_t)) : 0;
     MPI_Comm_set_errhandler(comm.raw(), MPI_ERRORS_RETURN);
     const int outcome =
@@ -26,7 +26,7 @@ SharedCounter::SharedCounter(const Comm& comm) {
 }
 
 SharedCounter::~SharedCounter() {
-    if (std::uncaught_exceptions() > 0) return;  // freeing is collective; see Comm::~Comm
+    if (!may_free_together(ranks_)) return;
     MPI_Win_unlock_all(window_);
     MPI_Win_free(&window_);
 }

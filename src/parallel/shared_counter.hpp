@@ -29,6 +29,7 @@ class SharedCounter {
 
   private:
     std::int64_t fetch_and_add(std::int64_t addend);
+    int ranks_;
     MPI_Win window_ = MPI_WIN_NULL;
     std::int64_t* value_ = nullptr;
 };
