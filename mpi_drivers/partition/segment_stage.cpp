@@ -3,33 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "mpi_drivers/optimise/optimise_stage.hpp"
+#include "src/base/disjoint_sets.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {
 
 namespace {
-
-/// Joined sets of numbers, each known by its lowest.
-class JoinedSets {
-  public:
-    explicit JoinedSets(std::size_t size) : lower_(size) { std::iota(lower_.begin(), lower_.end(), 0); }
-    int lowest(int i) {
-        while (lower_[at(i)] != i) i = lower_[at(i)] = lower_[at(lower_[at(i)])];
-        return i;
-    }
-    void join(int a, int b) {
-        const int low = lowest(a);
-        const int other = lowest(b);
-        lower_[at(std::max(low, other))] = std::min(low, other);
-    }
-
-  private:
-    std::vector<int> lower_;
-};
 
 struct Segments {
     std::vector<int> of_patch;  ///< numbered by mesh, then by lowest patch
@@ -39,7 +21,7 @@ struct Segments {
 Segments find_segments(const Comm& comm, const Collection& collection,
                        const std::vector<int>& part_of_patch) {
     const int patches = collection.numbering.patch_count();
-    JoinedSets sets(at(patches));
+    DisjointSets sets(at(patches));
     const auto join = [&](int a, int b) {
         if (part_of_patch[at(a)] == part_of_patch[at(b)]) sets.join(a, b);
     };

@@ -2,33 +2,14 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <span>
 
+#include "src/base/disjoint_sets.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {
 
 namespace {
-
-/// Disjoint sets whose representative is the lowest member.
-class DisjointSets {
-  public:
-    explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-    int find(int i) {
-        while (parent(i) != i) i = parent(i) = parent(parent(i));
-        return i;
-    }
-    void join(int i, int j) {
-        const int a = find(i);
-        const int b = find(j);
-        parent(std::max(a, b)) = std::min(a, b);
-    }
-
-  private:
-    int& parent(int i) { return parent_[at(i)]; }
-    std::vector<int> parent_;
-};
 
 void join_rows(const SparseRows& graph, DisjointSets& sets) {
     for (std::size_t r = 0; r < at(graph.local_rows()); ++r) {
@@ -42,7 +23,7 @@ void join_rows(const SparseRows& graph, DisjointSets& sets) {
 void join_over_ranks(const Comm& comm, int size, DisjointSets& sets) {
     std::vector<int> forest;
     for (int i = 0; i < size; ++i) {
-        if (const int root = sets.find(i); root != i) forest.insert(forest.end(), {i, root});
+        if (const int root = sets.lowest(i); root != i) forest.insert(forest.end(), {i, root});
     }
     const std::vector<int> edges = all_gather(comm, std::span<const int>(forest));
     for (std::size_t k = 0; k < edges.size(); k += 2) sets.join(edges[k], edges[k + 1]);
@@ -76,7 +57,7 @@ std::vector<int> connected_components(const Comm& comm, const SparseRows& graph)
     join_rows(graph, sets);
     if (comm.size() > 1) join_over_ranks(comm, size, sets);
     std::vector<int> component(at(size));
-    for (int i = 0; i < size; ++i) component[at(i)] = sets.find(i);
+    for (int i = 0; i < size; ++i) component[at(i)] = sets.lowest(i);
     return component;
 }
 

@@ -3,11 +3,11 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "src/base/disjoint_sets.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/descriptors/cotangent_laplacian.hpp"
@@ -27,26 +27,14 @@ struct VertexComponents {
 };
 
 VertexComponents vertex_components(const TriMesh& mesh) {
-    std::vector<int> parent(static_cast<std::size_t>(mesh.vertex_count()));
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int v) {
-        while (parent[at(v)] != v) {
-            int& up = parent[at(v)];
-            v = up = parent[at(up)];
-        }
-        return v;
-    };
+    DisjointSets sets(at(mesh.vertex_count()));
     for (int f = 0; f < mesh.face_count(); ++f) {
-        for (int k = 1; k < 3; ++k) {
-            const int a = root(mesh.faces(0, f));
-            const int b = root(mesh.faces(k, f));
-            parent[at(std::max(a, b))] = std::min(a, b);
-        }
+        for (int k = 1; k < 3; ++k) sets.join(mesh.faces(0, f), mesh.faces(k, f));
     }
     VertexComponents components;
-    components.of_vertex.resize(parent.size());
+    components.of_vertex.resize(at(mesh.vertex_count()));
     for (int v = 0; v < mesh.vertex_count(); ++v) {
-        const int r = root(v);
+        const int r = sets.lowest(v);
         if (r == v) components.first_vertex.push_back(v);
         components.of_vertex[at(v)] =
             r == v ? static_cast<int>(components.count()) - 1 : components.of_vertex[at(r)];

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "src/base/disjoint_sets.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
@@ -159,24 +160,12 @@ std::vector<Candidate> best_candidates(const PointTree& tree, const std::vector<
     return best;
 }
 
-int root_of(std::vector<int>& parent, int group) {
-    while (parent[at(group)] != group) {
-        int& up = parent[at(group)];
-        up = parent[at(up)];
-        group = up;
-    }
-    return group;
-}
-
 /// Takes each group's candidate unless its two ends are joined already (both ends may propose the same pair).
-void take(const std::vector<Candidate>& best, const std::vector<int>& group_of_point,
-          std::vector<int>& parent, std::vector<PointJoin>& joins) {
+void take(const std::vector<Candidate>& best, const std::vector<int>& group_of_point, DisjointSets& sets,
+          std::vector<PointJoin>& joins) {
     for (const Candidate& c : best) {
         if (c.point_b == std::numeric_limits<int>::max()) continue;  // no longer a group of its own
-        const int a = root_of(parent, group_of_point[at(c.point_a)]);
-        const int b = root_of(parent, group_of_point[at(c.point_b)]);
-        if (a == b) continue;
-        parent[at(std::max(a, b))] = std::min(a, b);
+        if (!sets.join(group_of_point[at(c.point_a)], group_of_point[at(c.point_b)])) continue;
         joins.push_back({c.point_a, c.point_b, std::sqrt(c.squared)});
     }
 }
@@ -188,17 +177,16 @@ std::vector<PointJoin> spanning_joins(const Eigen::Matrix3Xd& points, const std:
     std::vector<PointJoin> joins;
     if (groups <= 1) return joins;
     PointTree tree = build_tree(points);
-    std::vector<int> parent(at(groups));
-    std::iota(parent.begin(), parent.end(), 0);
+    DisjointSets sets(at(groups));
     std::vector<int> merged(group.size());
     std::vector<double> nearest(group.size(), 0.0);
     while (static_cast<int>(joins.size()) + 1 < groups) {
         for (std::size_t i = 0; i < merged.size(); ++i) {
-            merged[i] = root_of(parent, group[at(tree.order[i])]);
+            merged[i] = sets.lowest(group[at(tree.order[i])]);
         }
         tag_nodes(tree, merged);
         const std::size_t before = joins.size();
-        take(best_candidates(tree, merged, groups, nearest), group, parent, joins);
+        take(best_candidates(tree, merged, groups, nearest), group, sets, joins);
         if (joins.size() == before) {
             throw Error(ExitCode::internal,
                         "components cannot be joined: a face centroid is not a finite point");

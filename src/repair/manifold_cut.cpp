@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "src/base/disjoint_sets.hpp"
 #include "src/base/index.hpp"
 #include "src/mesh/edge_groups.hpp"
 
@@ -28,7 +28,6 @@ class ManifoldCutter {
         : triangles_(triangles), positions_(positions), half_edges_(3 * static_cast<int>(triangles.size())) {
         mate_.assign(at(half_edges_), -1);
         flipped_.assign(triangles.size(), 0);
-        parent_.resize(at(half_edges_));
     }
 
     ManifoldCut run() {
@@ -202,35 +201,20 @@ class ManifoldCutter {
         for (const int f : to_turn) flipped_[at(f)] ^= 1;
     }
 
-    int root(int corner) {
-        while (parent_[at(corner)] != corner) {
-            parent_[at(corner)] = parent_[at(parent_[at(corner)])];
-            corner = parent_[at(corner)];
-        }
-        return corner;
-    }
-
-    /// The lower root stays, so that a fan is known by its lowest corner.
-    void unite(int a, int b) {
-        a = root(a);
-        b = root(b);
-        parent_[at(std::max(a, b))] = std::min(a, b);
-    }
-
     /// Corners that meet across joined edges are one fan; each fan gets a vertex of its own.
     void number_vertices() {
-        std::iota(parent_.begin(), parent_.end(), 0);
+        fans_ = DisjointSets(at(half_edges_));
         for (int h = 0; h < half_edges_; ++h) {
             const int m = mate_[at(h)];
             if (m < h) continue;
             const bool same_start = start(h) == start(m);
-            unite(h, same_start ? m : next(m));
-            unite(next(h), same_start ? next(m) : m);
+            fans_.join(h, same_start ? m : next(m));
+            fans_.join(next(h), same_start ? next(m) : m);
         }
         std::vector<int> first_fan(positions_.size(), -1);
         std::vector<int> further_fans;
         for (int c = 0; c < half_edges_; ++c) {
-            if (parent_[at(c)] != c) continue;
+            if (fans_.lowest(c) != c) continue;
             int& first = first_fan[at(start(c))];
             if (first < 0)
                 first = c;
@@ -253,7 +237,8 @@ class ManifoldCutter {
         for (const int fan : further_fans) give_number(fan);
         result_.copied_vertices = static_cast<int>(further_fans.size());
         result_.triangles.resize(triangles_.size());
-        for (int c = 0; c < half_edges_; ++c) result_.triangles[at(c / 3)][c % 3] = number[at(root(c))];
+        for (int c = 0; c < half_edges_; ++c)
+            result_.triangles[at(c / 3)][c % 3] = number[at(fans_.lowest(c))];
     }
 
     /// After cuts both ends of an edge may still be shared by triangles that are not joined there. Those are
@@ -317,7 +302,7 @@ class ManifoldCutter {
     int half_edges_;
     std::vector<int> mate_;      ///< the joined half-edge, -1 at a boundary
     std::vector<char> flipped_;  ///< per triangle
-    std::vector<int> parent_;    ///< union-find over corners
+    DisjointSets fans_{0};       ///< of corners
     bool has_twins_ = false;     ///< two triangles on the same three vertices were kept apart
     ManifoldCut result_;
 };
