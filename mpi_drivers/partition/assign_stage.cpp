@@ -148,18 +148,11 @@ CutResult joined_parts(const Comm& comm, const Collection& collection,
 SolveSummary summed(const std::vector<AssignedMesh>& meshes) {
     SolveSummary sum;
     for (const AssignedMesh& mesh : meshes) {
-        const SolveSummary& own = mesh.solution;
-        sum.objective_at_zero += own.objective_at_zero;
-        sum.objective += own.objective;
-        sum.lower_bound += own.lower_bound;
-        sum.kkt_residual = std::max(sum.kkt_residual, own.kkt_residual);
-        sum.iterations = std::max(sum.iterations, own.iterations);
-        sum.passes = std::max(sum.passes, own.passes);
-        sum.nonzero_groups += own.nonzero_groups;
-        sum.reason = std::max(sum.reason, own.reason);
+        add_certificate(sum, mesh.solution);
     }
-    const double decrease = sum.objective_at_zero - sum.objective;
-    sum.relative_gap = decrease > 0.0 ? std::max(sum.objective - sum.lower_bound, 0.0) / decrease : 0.0;
+    sum.relative_gap = relative_gap(sum.objective - sum.lower_bound,
+                                    gap_scale(PenaltyScope::meshes, sum.objective, sum.objective_at_zero),
+                                    sum.objective_at_zero);
     return sum;
 }
 

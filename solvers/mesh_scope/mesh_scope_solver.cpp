@@ -317,9 +317,7 @@ HistoryRow certificate(const FeatureStack& stack, double decrease, double larges
     row.objective = stack.squared_norm - decrease;
     row.lower_bound =
         std::max(0.0, stack.squared_norm * (1.0 - stack.inner_product_error()) - largest_decrease);
-    const double width = std::max(largest_decrease - decrease, 0.0);
-    const bool rounding_only = width <= 1e-14 * stack.squared_norm;
-    row.relative_gap = decrease > 0.0 ? width / decrease : (rounding_only ? 0.0 : 1.0);
+    row.relative_gap = relative_gap(largest_decrease - decrease, decrease, stack.squared_norm);
     return row;
 }
 
@@ -349,8 +347,8 @@ void finish_result(const Comm& comm, const Totals& totals, const MeshScopeSolver
     result.lower_bound = end.lower_bound;
     result.relative_gap = end.relative_gap;
     result.kkt_residual = all_max(comm, totals.residual);
-    result.iterations = static_cast<int>(all_max(comm, totals.iterations));
-    result.passes = static_cast<int>(all_max(comm, totals.passes));
+    result.iterations = all_max(comm, totals.iterations);
+    result.passes = all_max(comm, totals.passes);
     result.working_pairs = all_sum(comm, totals.working_pairs);
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
     finish_history(comm, totals, stack, result);

@@ -25,6 +25,11 @@ constexpr std::array<EnumName<SolverChoice>, 3> enum_names(SolverChoice /*type*/
              {SolverChoice::working_set, "working-set"}}};
 }
 
+/// What commands and the library accept.
+inline constexpr double least_gap = 1e-14;
+inline constexpr int most_solve_iterations = 1 << 30;
+inline constexpr double most_solve_seconds = 1e9;
+
 struct SolveOptions {
     double gap = 1e-4;            ///< the relative gap at which to stop; see SolveResult
     int max_iterations = 200000;  ///< of the inner method; mesh scope: per column

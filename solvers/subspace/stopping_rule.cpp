@@ -30,10 +30,12 @@ bool StoppingRule::limit_reached(int iterations, double kkt_residual) {
     return false;
 }
 
-double StoppingRule::scale(double objective) const { return std::max(objective, 1e-6 * objective_at_zero_); }
+double StoppingRule::scale(double objective) const {
+    return gap_scale(PenaltyScope::rows, objective, objective_at_zero_);
+}
 
 double StoppingRule::relative_gap() const {
-    return std::max(objective_ - lower_bound_, 0.0) / scale(objective_);
+    return coseg::relative_gap(objective_ - lower_bound_, scale(objective_), objective_at_zero_);
 }
 
 void StoppingRule::report(SolveResult& result) const {

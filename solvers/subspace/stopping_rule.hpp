@@ -30,8 +30,7 @@ class StoppingRule {
     [[nodiscard]] double lower_bound() const noexcept { return lower_bound_; }
     [[nodiscard]] StopReason limit() const noexcept { return limit_; }
 
-    /// The value that gaps are relative to. An objective that vanishes, as where duplicates explain each
-    /// other, cannot serve; the scale is therefore at least a millionth of the objective at W = 0.
+    /// The value that gaps are relative to.
     [[nodiscard]] double scale(double objective) const;
 
     /// Fills in bounds, gap and reason.

@@ -8,6 +8,11 @@
 
 namespace coseg {
 
+double gap_scale(PenaltyScope scope, double objective, double objective_at_zero) {
+    return scope == PenaltyScope::meshes ? objective_at_zero - objective
+                                         : std::max(objective, 1e-6 * objective_at_zero);
+}
+
 namespace {
 
 std::string place(std::size_t feature, Eigen::Index column) {

@@ -34,6 +34,14 @@ constexpr std::array<EnumName<PenaltyScope>, 2> enum_aliases(PenaltyScope /*type
     return {{{PenaltyScope::rows, "paper"}, {PenaltyScope::meshes, "mesh"}}};
 }
 
+/// What the gap of an objective is relative to (`relative_gap`). In row scope, the objective, and at least a
+/// millionth of that at W = 0: it vanishes where duplicates explain each other. In mesh scope, what has been
+/// gained: objective_at_zero - objective.
+double gap_scale(PenaltyScope scope, double objective, double objective_at_zero);
+
+/// The largest alpha, beta and lambda that commands and the library accept.
+inline constexpr double most_penalty = 1e12;
+
 struct SubspaceProblem {
     FeatureMatrices features;  ///< H matrices, d_h x N, nonnegative, the same on every rank
     double alpha = 0.01;       ///< of ||W||_{2,1}; >= 0

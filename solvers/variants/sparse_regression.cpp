@@ -350,8 +350,9 @@ StopReason reason_of(const Comm& comm, const Totals& totals, bool timed_out) {
     return any_rank(comm, totals.limited) ? StopReason::iteration_limit : StopReason::residual_reached;
 }
 
-double relative_gap(double objective, double lower_bound, double objective_at_zero) {
-    return (objective - lower_bound) / std::max(objective, 1e-6 * objective_at_zero);
+double gap_of(double objective, double lower_bound, double objective_at_zero) {
+    return relative_gap(objective - lower_bound, gap_scale(PenaltyScope::rows, objective, objective_at_zero),
+                        objective_at_zero);
 }
 
 /// Collective. The last row is the answer's own.
@@ -361,7 +362,7 @@ void finish_history(const Comm& comm, const std::vector<std::vector<ColumnRound>
         const double bound = std::min(round.bound, round.reached);
         result.history.push_back(
             {static_cast<int>(result.history.size()) + 1, round.iterations, round.reached, bound,
-             relative_gap(round.reached, bound, result.objective_at_zero), round.working_pairs});
+             gap_of(round.reached, bound, result.objective_at_zero), round.working_pairs});
     }
     HistoryRow& last = result.history.back();
     last = {result.passes,      result.iterations,   result.objective,
@@ -395,9 +396,9 @@ SolveResult solve_sparse_regression(const Comm& comm, const SubspaceProblem& pro
     result.objective_at_zero = solver.stack().squared_norm;
     result.objective = sums.scalar(0);
     result.lower_bound = std::min(sums.scalar(1), result.objective);
-    result.relative_gap = relative_gap(result.objective, result.lower_bound, result.objective_at_zero);
-    result.iterations = static_cast<int>(all_max(comm, totals.sweeps));
-    result.passes = static_cast<int>(all_max(comm, solver.passes()));
+    result.relative_gap = gap_of(result.objective, result.lower_bound, result.objective_at_zero);
+    result.iterations = all_max(comm, totals.sweeps);
+    result.passes = all_max(comm, solver.passes());
     result.working_pairs = all_sum(comm, totals.working_pairs);
     result.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(result.coefficients.rows.size()));
     finish_history(comm, totals.rounds, result);

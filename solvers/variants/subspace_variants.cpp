@@ -65,28 +65,18 @@ SolveResult solve_independent(const Comm& comm, const SubspaceProblem& problem, 
     std::vector<SolveHistory> histories;
     for (std::size_t h = 0; h < problem.features.size(); ++h) {
         SolveResult one = solve_subspace(comm, of_one_feature(comm, problem, h), options);
-        sum.objective += one.objective;
-        sum.objective_at_zero += one.objective_at_zero;
-        sum.lower_bound += one.lower_bound;
-        sum.kkt_residual = std::max(sum.kkt_residual, one.kkt_residual);
-        sum.iterations += one.iterations;
-        sum.passes += one.passes;
-        sum.working_pairs += one.working_pairs;
-        sum.reason = std::max(sum.reason, one.reason);
+        add_certificate(sum, one);
         coefficients.push_back(std::move(one.coefficients));
         histories.push_back(std::move(one.history));
     }
-    const auto relative_gap = [&](double objective, double lower_bound) {
-        const double scale = problem.scope == PenaltyScope::meshes
-                                 ? sum.objective_at_zero - objective
-                                 : std::max(objective, 1e-6 * sum.objective_at_zero);
-        const double width = std::max(objective - lower_bound, 0.0);
-        const bool rounding_only = width <= 1e-14 * sum.objective_at_zero;
-        return scale > 0.0 ? width / scale : (rounding_only ? 0.0 : 1.0);
+    const auto gap_of = [&](double objective, double lower_bound) {
+        return relative_gap(objective - lower_bound,
+                            gap_scale(problem.scope, objective, sum.objective_at_zero),
+                            sum.objective_at_zero);
     };
-    sum.relative_gap = relative_gap(sum.objective, sum.lower_bound);
+    sum.relative_gap = gap_of(sum.objective, sum.lower_bound);
     sum.history = joined(histories);
-    for (HistoryRow& row : sum.history) row.relative_gap = relative_gap(row.objective, row.lower_bound);
+    for (HistoryRow& row : sum.history) row.relative_gap = gap_of(row.objective, row.lower_bound);
     sum.coefficients = side_by_side(coefficients);
     sum.nonzero_groups = all_sum(comm, static_cast<std::int64_t>(sum.coefficients.rows.size()));
     return sum;

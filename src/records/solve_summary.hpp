@@ -45,15 +45,13 @@ using SolveHistory = std::vector<HistoryRow>;
 
 /// The certificate of a solve; the same on all ranks.
 struct SolveSummary {
-    double objective = 0.0;          ///< at the coefficients; an upper bound of the optimum
-    double objective_at_zero = 0.0;  ///< sum_h ||X_h||_F^2
-    double lower_bound = 0.0;        ///< of the optimum; rounding is allowed for
-    /// (objective - lower_bound) / objective in row scope; in mesh scope the divisor is objective_at_zero -
-    /// objective. 0 where both bounds agree to the last bits.
-    double relative_gap = 0.0;
+    double objective = 0.0;           ///< at the coefficients; an upper bound of the optimum
+    double objective_at_zero = 0.0;   ///< sum_h ||X_h||_F^2
+    double lower_bound = 0.0;         ///< of the optimum; rounding is allowed for
+    double relative_gap = 0.0;        ///< as the function of this name has it
     double kkt_residual = 0.0;        ///< norm of (W - prox(W - t G)) / t, relative to the size of G at W = 0
     int iterations = 0;               ///< in mesh scope, of the column that took most
-    int passes = 0;                   ///< over all pairs
+    int passes = 0;                   ///< over all pairs; of several solves, of all of them
     std::int64_t working_pairs = 0;   ///< pairs that the last working set held, all ranks
     std::int64_t nonzero_groups = 0;  ///< pairs with a value > 0, all ranks
     StopReason reason = StopReason::gap_reached;
@@ -74,5 +72,13 @@ struct SolveSummary {
                           field("reason", &SolveSummary::reason), field("history", &SolveSummary::history));
     }
 };
+
+/// `width`, the distance between an objective and its lower bound, over `scale`; never below 0. Where the
+/// scale is 0, it is 0 if the width is rounding beside the objective at W = 0, and else 1.
+double relative_gap(double width, double scale, double objective_at_zero);
+
+/// Adds up solves that are independent of each other: bounds and counts are sums; residual, iterations and
+/// reason are those of the worst. Leaves the relative gap and the history to the caller.
+void add_certificate(SolveSummary& sum, const SolveSummary& one);
 
 }  // namespace coseg
