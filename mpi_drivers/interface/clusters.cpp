@@ -14,6 +14,8 @@
 #include "mpi_drivers/optimise/solution_output.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/base/text.hpp"
+#include "src/records/part_limits.hpp"
 
 namespace coseg {
 
@@ -31,20 +33,19 @@ E enumerator(const std::string& what, const std::string& name) {
 
 void refuse_outside(const char* what, double value, double least, double most) {
     if (value >= least && value <= most) return;
-    std::string text = std::to_string(value);
-    refuse_setting(std::string(what) + ": " + text + " is out of range");
+    refuse_setting(std::string(what) + ": " + significant(value) + " is not in " + significant(least) +
+                   " .. " + significant(most));
 }
 
 ClusterOptions cluster_options(const ClusterSettings& given) {
-    if (given.parts < 1 || given.parts > 1000)
-        refuse_setting("parts: " + std::to_string(given.parts) + " is not in 1 .. 1000");
+    refuse_outside("parts", given.parts, 1, most_parts);
     if (given.links < 0 || given.links == 1) refuse_setting("links: 0, or at least 2 groups");
-    refuse_outside("alpha", given.alpha, 0.0, 1e12);
-    refuse_outside("beta", given.beta, 0.0, 1e12);
-    refuse_outside("lambda", given.lambda, 0.0, 1e12);
-    refuse_outside("gap", given.gap, 1e-14, 1.0);
-    refuse_outside("max_iterations", given.max_iterations, 1.0, 1 << 30);
-    refuse_outside("max_seconds", given.max_seconds, 0.0, 1e9);
+    refuse_outside("alpha", given.alpha, 0.0, most_penalty);
+    refuse_outside("beta", given.beta, 0.0, most_penalty);
+    refuse_outside("lambda", given.lambda, 0.0, most_penalty);
+    refuse_outside("gap", given.gap, least_gap, 1.0);
+    refuse_outside("max_iterations", given.max_iterations, 1.0, most_solve_iterations);
+    refuse_outside("max_seconds", given.max_seconds, 0.0, most_solve_seconds);
     ClusterOptions options;
     options.parts = given.parts;
     options.unit_columns = given.unit_items;
@@ -102,25 +103,19 @@ ContentHash content_of(const std::vector<FeatureMatrix>& features, const std::ve
 }
 
 /// W of each feature on all ranks: what is 0 for a feature is left out of its matrix. Collective.
-std::vector<SparseMatrix> all_coefficients(const Comm& comm, const SparseCoefficients& w) {
-    std::vector<std::int64_t> lengths;
-    for (std::size_t c = 0; c + 1 < w.offsets.size(); ++c) lengths.push_back(w.offsets[c + 1] - w.offsets[c]);
-    lengths = all_gather(comm, std::span<const std::int64_t>(lengths));
-    const std::vector<int> rows = all_gather(comm, std::span<const int>(w.rows));
-    const std::vector<double> values = all_gather(comm, std::span<const double>(w.values));
+std::vector<SparseMatrix> all_coefficients(const Comm& comm, const SparseCoefficients& local) {
+    const SparseCoefficients w = all_gathered(comm, local);
     std::vector<SparseMatrix> matrices(at(w.features), {w.size, {0}, {}, {}});
-    std::size_t entry = 0;
-    for (const std::int64_t length : lengths) {
-        for (const std::size_t end = entry + at(length); entry < end; ++entry) {
+    for (std::size_t c = 0; c + 1 < w.offsets.size(); ++c) {
+        for (std::size_t entry = at(w.offsets[c]); entry < at(w.offsets[c + 1]); ++entry) {
             for (std::size_t h = 0; h < matrices.size(); ++h) {
-                const double value = values[entry * matrices.size() + h];
+                const double value = w.values[entry * matrices.size() + h];
                 if (value == 0.0) continue;
-                matrices[h].indices.push_back(rows[entry]);
+                matrices[h].indices.push_back(w.rows[entry]);
                 matrices[h].values.push_back(value);
             }
         }
-        for (SparseMatrix& matrix : matrices)
-            matrix.offsets.push_back(static_cast<std::int64_t>(matrix.indices.size()));
+        for (SparseMatrix& matrix : matrices) matrix.offsets.push_back(std::ssize(matrix.indices));
     }
     return matrices;
 }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <tuple>
+#include <utility>
 
 #include "io/data_files/feature_file.hpp"
 #include "io/reports/record_json.hpp"
@@ -44,15 +45,10 @@ std::string certificate_json(const SubspaceProblem& problem, const SolveResult& 
 
 void write_coefficients(const Comm& comm, const SolveResult& result, const std::string& path) {
     if (path.empty()) return;
-    const SparseCoefficients& w = result.coefficients;
-    std::vector<std::int64_t> lengths;
-    for (std::size_t c = 0; c + 1 < w.offsets.size(); ++c) lengths.push_back(w.offsets[c + 1] - w.offsets[c]);
-    CoefficientFile file{
-        w.size, w.features, {0}, {}, {}, result.objective, result.lower_bound, to_string(result.reason)};
-    for (const std::int64_t length : all_gather(comm, std::span<const std::int64_t>(lengths)))
-        file.offsets.push_back(file.offsets.back() + length);
-    file.rows = all_gather(comm, std::span<const int>(w.rows));
-    file.values = all_gather(comm, std::span<const double>(w.values));
+    SparseCoefficients w = gathered(comm, result.coefficients);
+    const CoefficientFile file{
+        w.size,           w.features,         std::move(w.offsets),    std::move(w.rows), std::move(w.values),
+        result.objective, result.lower_bound, to_string(result.reason)};
     agree(comm, [&] {
         if (comm.is_root()) write_coefficient_file(path, file);
     });

@@ -6,6 +6,7 @@
 #include "mpi_drivers/partition/alignment_stage.hpp"
 #include "mpi_drivers/partition/sub_collection.hpp"
 #include "solvers/alignment/shape_alignment.hpp"
+#include "solvers/subspace/column_assembly.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/metrics/assignment.hpp"
@@ -15,52 +16,6 @@ namespace coseg {
 
 namespace {
 
-/// W with the columns of all patches, on every rank, as the subsets fill it.
-struct GlobalColumns {
-    int features = 0;
-    std::vector<std::vector<std::pair<int, std::vector<double>>>> of_patch;
-};
-
-/// Takes over the columns of a subset whose patches have none yet. Collective.
-void take_columns(const Comm& comm, const SparseCoefficients& local, const std::vector<int>& patch_of,
-                  GlobalColumns& columns) {
-    std::vector<int> counts;
-    for (std::size_t c = 0; c + 1 < local.offsets.size(); ++c)
-        counts.push_back(static_cast<int>(local.offsets[c + 1] - local.offsets[c]));
-    counts = all_gather(comm, std::span<const int>(counts));
-    const std::vector<int> rows = all_gather(comm, std::span<const int>(local.rows));
-    const std::vector<double> values = all_gather(comm, std::span<const double>(local.values));
-    columns.features = local.features;
-    const auto width = static_cast<std::size_t>(local.features);
-    std::size_t entry = 0;
-    for (std::size_t c = 0; c < counts.size(); ++c) {
-        auto& column = columns.of_patch[at(patch_of[c])];
-        const bool taken = !column.empty();
-        for (int k = 0; k < counts[c]; ++k, ++entry) {
-            if (taken) continue;
-            const auto first = values.begin() + static_cast<std::ptrdiff_t>(entry * width);
-            column.emplace_back(patch_of[at(rows[entry])],
-                                std::vector<double>(first, first + local.features));
-        }
-    }
-}
-
-SparseCoefficients own_columns(const Comm& comm, const GlobalColumns& columns) {
-    SparseCoefficients own;
-    own.size = static_cast<std::int64_t>(columns.of_patch.size());
-    own.columns = block_range(own.size, comm.size(), comm.rank(), coefficient_tile);
-    own.features = columns.features;
-    own.offsets.assign(1, 0);
-    for (std::int64_t j = own.columns.begin; j < own.columns.end; ++j) {
-        for (const auto& [row, values] : columns.of_patch[at(j)]) {
-            own.rows.push_back(row);
-            own.values.insert(own.values.end(), values.begin(), values.end());
-        }
-        own.offsets.push_back(static_cast<std::int64_t>(own.rows.size()));
-    }
-    return own;
-}
-
 void add(Optimisation& sum, Optimisation&& one, bool first) {
     if (first) {
         sum = std::move(one);
@@ -68,17 +23,9 @@ void add(Optimisation& sum, Optimisation&& one, bool first) {
     }
     SolveResult& s = sum.result;
     const SolveResult& o = one.result;
-    s.objective += o.objective;
-    s.objective_at_zero += o.objective_at_zero;
-    s.lower_bound += o.lower_bound;
-    s.nonzero_groups += o.nonzero_groups;
-    s.working_pairs += o.working_pairs;
-    s.passes += o.passes;
+    add_certificate(s, o);
     s.relative_gap = std::max(s.relative_gap, o.relative_gap);
-    s.kkt_residual = std::max(s.kkt_residual, o.kkt_residual);
     s.history = joined({s.history, o.history});
-    s.iterations = std::max(s.iterations, o.iterations);
-    s.reason = std::max(s.reason, o.reason);
     sum.links = std::max(sum.links, one.links);
     sum.allowed_pairs += one.allowed_pairs;
 }
@@ -113,8 +60,7 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
     const OverlappingSubsets plan = overlapping_subsets(names, options.subsets, options.seed);
     const auto patches = static_cast<std::size_t>(collection.numbering.patch_count());
     std::vector<int> known(patches, -1);
-    GlobalColumns columns;
-    columns.of_patch.resize(patches);
+    ColumnAssembly columns(comm, collection.numbering.patch_count());
     SubsetOutcome outcome;
     double agreement = 0.0;
     for (std::size_t s = 0; s < plan.subsets.size(); ++s) {
@@ -128,7 +74,7 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
                                            partition_input(comm, part.collection, std::move(part.features),
                                                            optimised.result.coefficients, options),
                                            options, task.cuts);
-        take_columns(comm, optimised.result.coefficients, part.patch_of, columns);
+        columns.add(optimised.result.coefficients, part.patch_of);
         add(outcome.optimisation, std::move(optimised), s == 0);
         const Matching matching =
             match_parts(cut.part_of_patch, part.patch_of, known, features.patch_area, options.parts);
@@ -142,7 +88,7 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
     outcome.optimisation.common_meshes = static_cast<int>(plan.common.size());
     if (plan.subsets.size() > 1)
         outcome.optimisation.subset_agreement = agreement / static_cast<double>(plan.subsets.size() - 1);
-    outcome.optimisation.result.coefficients = own_columns(comm, columns);
+    outcome.optimisation.result.coefficients = columns.take();
     outcome.cut =
         described_partition(known, options.parts, collection.numbering.mesh_of(), features.patch_area);
     return outcome;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/parallel/block_range.hpp"
+#include "src/parallel/comm.hpp"
 
 namespace coseg {
 
@@ -23,6 +24,12 @@ struct SparseCoefficients {
     /// The values are >= 0 except for variants of free sign. At least one of the H values of a pair is not 0.
     std::vector<double> values;
 };
+
+/// The columns of all ranks, on all ranks: for small problems and for results that everyone asks for.
+/// Collective.
+SparseCoefficients all_gathered(const Comm& comm, const SparseCoefficients& local);
+/// The same on the root alone; elsewhere there are no columns. Collective.
+SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& local);
 
 /// ||w_ij||_2 over the features, of each entry.
 std::vector<double> pair_norms(const SparseCoefficients& coefficients);

@@ -24,6 +24,14 @@ std::string decimal(double value, int digits) {
 
 std::string percent(double share, int digits) { return decimal(100.0 * share, digits) + " %"; }
 
+std::optional<int> whole_number(std::string_view text) {
+    int number = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, number);
+    if (failure != std::errc() || stop != end) return std::nullopt;
+    return number;
+}
+
 std::string escaped(std::string_view text) {
     std::string safe;
     for (const char c : text) {

@@ -1,5 +1,5 @@
 #pragma once
-// Writes numbers and names as messages, pages and files show them.
+// Writes numbers and names as messages, pages and files show them, and reads numbers back.
 
 #include <cstdint>
 #include <optional>
@@ -19,6 +19,9 @@ std::string percent(double share, int digits);
 
 /// A number and what it counts: "1 shape", "20 shapes".
 std::string with_unit(std::int64_t count, const std::string& one, const std::string& many);
+
+/// The whole number that all of a text is: digits, and "-" before them. Nothing where it is none or does not fit.
+std::optional<int> whole_number(std::string_view text);
 
 /// `text` with the characters escaped that XML and HTML would misread, between tags or inside an attribute's
 /// quotation marks.

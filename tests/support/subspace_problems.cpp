@@ -39,19 +39,6 @@ void change_features(SubspaceProblem& problem, const std::function<void(Eigen::M
     problem.features = matrices;
 }
 
-SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& mine) {
-    SparseCoefficients all{mine.size, {0, mine.size}, mine.features, {0}, {}, {}};
-    all.rows = all_gather(comm, std::span<const int>(mine.rows));
-    all.values = all_gather(comm, std::span<const double>(mine.values));
-    std::vector<std::int64_t> counts;
-    for (std::size_t c = 0; c + 1 < mine.offsets.size(); ++c)
-        counts.push_back(mine.offsets[c + 1] - mine.offsets[c]);
-    for (const std::int64_t count : all_gather(comm, std::span<const std::int64_t>(counts))) {
-        all.offsets.push_back(all.offsets.back() + count);
-    }
-    return all;
-}
-
 void expect_same_solution(const SolveResult& a, const SolveResult& b) {
     EXPECT_EQ(a.objective, b.objective);
     EXPECT_EQ(a.lower_bound, b.lower_bound);

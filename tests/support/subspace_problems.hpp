@@ -19,9 +19,6 @@ SubspaceProblem random_subspace_problem(int features, int rows, int columns, int
 /// Changes every feature of a problem; those that it has been copied from keep theirs.
 void change_features(SubspaceProblem& problem, const std::function<void(Eigen::MatrixXd&)>& change);
 
-/// The coefficients of all columns on every rank. Collective.
-SparseCoefficients gathered(const Comm& comm, const SparseCoefficients& mine);
-
 /// Bounds, counts and coefficients must agree to the bit.
 void expect_same_solution(const SolveResult& a, const SolveResult& b);
 

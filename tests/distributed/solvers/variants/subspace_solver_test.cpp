@@ -45,7 +45,7 @@ SolveResult expect_same_on_any_ranks(const SubspaceProblem& problem, const Solve
               block_range(problem.size(), world.size(), world.rank(), coefficient_tile));
     for (const double objective : all_gather(world, std::span<const double>(&shared.objective, 1)))
         EXPECT_EQ(objective, shared.objective);
-    shared.coefficients = gathered(world, shared.coefficients);
+    shared.coefficients = all_gathered(world, shared.coefficients);
     if (world.is_root()) expect_same_solution(shared, solve_subspace(Comm(MPI_COMM_SELF), problem, options));
     const double objective = subspace_objective(problem, dense_weights(shared.coefficients));
     EXPECT_NEAR(objective, shared.objective, 1e-12 * shared.objective_at_zero);

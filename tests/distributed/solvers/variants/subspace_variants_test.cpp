@@ -32,7 +32,7 @@ SolveResult solve_both_ways(const SubspaceProblem& problem, SubspaceVariant vari
                             const SolveOptions& options = small_gap) {
     const Comm world(MPI_COMM_WORLD);
     SolveResult shared = solve_variant(world, problem, variant, feature, options);
-    shared.coefficients = gathered(world, shared.coefficients);
+    shared.coefficients = all_gathered(world, shared.coefficients);
     if (world.is_root())
         expect_same_solution(shared, solve_variant(Comm(MPI_COMM_SELF), problem, variant, feature, options));
     expect_own_history(shared);

@@ -37,5 +37,12 @@ TEST(OwnerExchange, BringsNothingWhereThereIsNothing) {
                     .empty());
 }
 
+TEST(OwnerExchange, RefusesOnAllRanksWhatOneOfThemCannotCount) {
+    const Comm comm(MPI_COMM_WORLD);
+    std::vector<std::int64_t> outgoing(static_cast<std::size_t>(comm.size()), 1);
+    if (comm.rank() == comm.size() - 1) outgoing.front() = std::int64_t{1} << 31;
+    EXPECT_THROW(owner_counts(comm, outgoing, "notes"), AgreedError);
+}
+
 }  // namespace
 }  // namespace coseg
