@@ -8,18 +8,16 @@
 #include "src/base/index.hpp"
 #include "src/parallel/block_range.hpp"
 #include "src/parallel/comm.hpp"
+#include "src/parallel/owner_exchange.hpp"
 
 namespace coseg {
-
-/// Throws Error(internal) if `pairs` of `features` values each are more than a rank can send or receive at
-/// once.
-void refuse_long_exchange(std::int64_t pairs, std::int64_t features);
 
 /// The plan of the exchange for one sparsity pattern. Rows are owned like columns: block_range(N, ranks,
 /// rank, coefficient_tile).
 class RowExchange {
   public:
     /// `rows` of the pairs of this rank's columns, column by column; `features` values a pair. Collective.
+    /// Throws AgreedError(internal) where a rank sends or gets more than 2^31 pairs.
     RowExchange(const Comm& comm, std::int64_t size, int features, const std::vector<int>& rows);
 
     [[nodiscard]] BlockRange owned_rows() const noexcept { return owned_; }
@@ -37,8 +35,6 @@ class RowExchange {
 
   private:
     void plan_rows(const std::vector<int>& received);
-    void exchange(const std::vector<double>& from, const std::vector<int>& from_counts,
-                  std::vector<double>& to, const std::vector<int>& to_counts) const;
 
     const Comm& comm_;
     std::size_t features_;
@@ -46,8 +42,8 @@ class RowExchange {
     std::vector<std::size_t> send_place_;     ///< of each pair by columns: its place in the send buffer
     std::vector<std::size_t> receive_place_;  ///< of each pair by rows: its place in the receive buffer
     std::vector<std::size_t> row_begin_;
-    std::vector<int> send_counts_;     ///< values per rank
-    std::vector<int> receive_counts_;  ///< values per rank
+    OwnerCounts to_rows_;  ///< pairs that go to and come from each rank
+    OwnerCounts to_columns_;
     std::vector<double> send_;
     std::vector<double> receive_;
 };
