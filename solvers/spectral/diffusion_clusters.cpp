@@ -136,6 +136,7 @@ std::vector<int> diffusion_clusters(const Comm& comm, const FeatureMatrices& fea
     Clustering best;
     agree(comm, [&] {
         check_input(features, options);
+        if (!comm.is_root()) return;
         const Comm self(MPI_COMM_SELF);
         const Eigen::MatrixXd points =
             diffusion_map(self, gaussian_affinity(squared_distances(features)), options);
@@ -145,6 +146,7 @@ std::vector<int> diffusion_clusters(const Comm& comm, const FeatureMatrices& fea
             if (found.squares < best.squares) best = std::move(found);
         }
     });
+    broadcast(comm, best.label);
     return best.label;
 }
 
