@@ -19,6 +19,8 @@ void assign(const Comm& comm, const std::string& run, const RunOptions& own,
             const std::vector<std::string>& petsc_arguments) {
     StageLog log(comm, own.process.verbosity(), own.process.log_form());
     const CheckedPetsc petsc(comm, petsc_arguments);
+    // Nothing is cut here: what has not been asked for by now never is.
+    if (!petsc_arguments.empty()) CheckedPetsc::refuse_unused(comm);
     const RunModel model = agreed_run_model(comm, run, log);
     const AssignedLabels done = assign(comm, nullptr, model, run, own, log);
     refuse_unreached_gap(done.assigned.optimisation.result, model.options.optimise.gap, own.output.folder);
@@ -49,7 +51,7 @@ AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, c
 
     // The parts of faces, as in the run.
     std::vector<MeshLabels> labels =
-        label_faces(collection, assigned.cut, partition.parts, output.refine, log, examples.faces);
+        label_faces(comm, collection, assigned.cut, partition.parts, output.refine, log, examples.faces);
 
     std::vector<OptionValue> values = option_values(options);
     values.push_back({"to", run, Affects::cut});

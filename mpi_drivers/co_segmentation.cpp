@@ -135,7 +135,8 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     // The parts of faces: a vote of the over-segmentations, and boundaries that follow creases.
     const OutputOptions& output = options.output;
     const int parts = options.partition.parts;
-    std::vector<MeshLabels> labels = label_faces(collection, cut, parts, output.refine, log, examples.faces);
+    std::vector<MeshLabels> labels =
+        label_faces(comm, collection, cut, parts, output.refine, log, examples.faces);
     if (!petsc_arguments.empty()) CheckedPetsc::refuse_unused(comm);
 
     const RunOutcome outcome{

@@ -23,8 +23,8 @@ struct MeshLabels {
 /// confidence of a face is the mean over the over-segmentations of the probability that its part is right: c
 /// of a patch of this part, and (1 - c) / (parts - 1) of another; 1 for a face whose label is given. `given`:
 /// GivenLabels::faces, which faces keep. The log has the stage "label". Collective.
-std::vector<MeshLabels> label_faces(const Collection& collection, const CutResult& cut, int parts,
-                                    RefineMode refine, StageLog& log,
+std::vector<MeshLabels> label_faces(const Comm& comm, const Collection& collection, const CutResult& cut,
+                                    int parts, RefineMode refine, StageLog& log,
                                     const std::vector<std::vector<int>>& given = {});
 
 /// The same for one mesh; given: what is said of its faces, or empty. Serial.

@@ -1,6 +1,7 @@
 #include "src/parallel/stage_log.hpp"
 
 #include <unistd.h>
+#include <algorithm>
 
 #include <cstdio>
 #include <utility>
@@ -102,7 +103,12 @@ void StageLog::end_of_own_work() {
 }
 
 void StageLog::step(const std::string& name, double seconds) {
-    steps_.push_back({name, seconds, seconds, seconds});
+    const auto known =
+        std::find_if(steps_.begin(), steps_.end(), [&](const StepTime& step) { return step.step == name; });
+    if (known == steps_.end())
+        steps_.push_back({name, seconds, seconds, seconds});
+    else
+        known->seconds += seconds;
 }
 
 void StageLog::keep_trace() {

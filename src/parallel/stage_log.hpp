@@ -46,7 +46,7 @@ class StageLog {
     /// Ends this rank's own work in the stage. The time from here until end() is waiting. Not collective.
     void end_of_own_work();
 
-    /// Says how long this rank spent on a step of the stage. Not collective, but every rank must name the
+    /// Adds to the time that this rank has spent on a step of the stage. Not collective, but every rank must name the
     /// same steps in the same order before end().
     void step(const std::string& name, double seconds);
 
