@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "src/base/error.hpp"
 #include "src/base/spelling.hpp"
 #include "src/base/text.hpp"
+#include "src/records/part_limits.hpp"
 
 namespace coseg {
 
@@ -27,17 +27,9 @@ constexpr const char* corrections_format = "coseg corrections";
 constexpr const char* constraints_format = "coseg constraints";
 constexpr int corrections_version = 1;
 constexpr int most_faces = 200'000'000;  // of a shape
-constexpr int most_part_numbers = 1000;
 constexpr std::size_t longest_name = 200;
 
 [[noreturn]] void refuse_file(const std::string& sentence) { throw Error(ExitCode::input, sentence); }
-
-std::optional<int> whole_number(std::string_view text) {
-    int number = 0;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || failure != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 std::vector<std::string_view> pieces_of(std::string_view text, char separator) {
     std::vector<std::string_view> pieces;
@@ -138,7 +130,7 @@ std::string checked_color(const std::string& color, const std::string& where) {
 }
 
 void read_label(ActReader& act, Correction& correction) {
-    correction.part = act.number("part", 0, most_part_numbers - 1);
+    correction.part = act.number("part", 0, most_parts - 1);
     correction.shape = act.text("shape");
     if (!act.has("faces") && !act.has("patches"))
         refuse_file(act.where() + ": \"faces\" or \"patches\" is missing");
@@ -163,7 +155,7 @@ Correction read_act(const Json& json, const std::string& where) {
     Correction c;
     c.kind = *found;
     c.where = where;
-    const auto part = [&] { return act.number("part", 0, most_part_numbers - 1); };
+    const auto part = [&] { return act.number("part", 0, most_parts - 1); };
     switch (c.kind) {
         case CorrectionKind::label:
             read_label(act, c);
@@ -176,7 +168,7 @@ Correction read_act(const Json& json, const std::string& where) {
         }
         case CorrectionKind::merge:
             c.part = part();
-            c.into = act.number("into", 0, most_part_numbers - 1);
+            c.into = act.number("into", 0, most_parts - 1);
             if (c.part == c.into) refuse_file(where + ": a part cannot be merged with itself");
             break;
         case CorrectionKind::split:
@@ -203,7 +195,7 @@ Correction read_act(const Json& json, const std::string& where) {
             if (c.first == c.second) refuse_file(where + ": it links a place with itself");
             break;
         case CorrectionKind::level:
-            c.part = act.number("parts", 2, most_part_numbers);
+            c.part = act.number("parts", 2, most_parts);
             break;
     }
     act.refuse_others();
@@ -346,7 +338,7 @@ Correction csv_row(const std::vector<std::string>& cells, const std::string& whe
         if (c.first == c.second) refuse_file(where + ": it links a place with itself");
         return c;
     }
-    c.part = csv_number(cells[1], where, most_part_numbers - 1);
+    c.part = csv_number(cells[1], where, most_parts - 1);
     if (c.kind == CorrectionKind::name)
         c.text = checked_name(cells[2], where);
     else
@@ -507,7 +499,7 @@ std::vector<LabelRun> parsed_runs(std::string_view text) {
         const std::optional<int> label = whole_number(piece.substr(0, star));
         const std::optional<int> count =
             star == std::string_view::npos ? std::optional<int>(1) : whole_number(piece.substr(star + 1));
-        if (!label || !count || *label < 0 || *label >= most_part_numbers || *count < 1 ||
+        if (!label || !count || *label < 0 || *label >= most_parts || *count < 1 ||
             *count > most_faces - total)
             refuse_file("'" + std::string(piece) + "' is no run of labels such as 2*12");
         total += *count;

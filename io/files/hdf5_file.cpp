@@ -234,12 +234,6 @@ template void Hdf5Writer::write(const std::string&, std::span<const std::int32_t
 template void Hdf5Writer::write(const std::string&, std::span<const std::int64_t>, Hdf5Shape, bool);
 template void Hdf5Writer::write(const std::string&, std::span<const std::uint64_t>, Hdf5Shape, bool);
 
-void Hdf5Writer::write_matrix(const std::string& name, const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
-    const Eigen::MatrixXd whole = matrix;  // the reference may have gaps between its columns
-    write(name, std::span<const double>(whole.data(), static_cast<std::size_t>(whole.size())),
-          {static_cast<std::uint64_t>(whole.cols()), static_cast<std::uint64_t>(whole.rows())});
-}
-
 void Hdf5Writer::write_texts(const std::string& name, const std::vector<std::string>& texts) {
     std::vector<const char*> pointers;
     for (const std::string& text : texts) pointers.push_back(text.c_str());
@@ -447,14 +441,18 @@ template std::vector<std::int32_t> Hdf5Reader::read(const std::string&) const;
 template std::vector<std::int64_t> Hdf5Reader::read(const std::string&) const;
 template std::vector<std::uint64_t> Hdf5Reader::read(const std::string&) const;
 
-Eigen::MatrixXd Hdf5Reader::read_matrix(const std::string& name) const {
+template <class T>
+Eigen::MatrixX<T> Hdf5Reader::read_matrix(const std::string& name) const {
     const Hdf5Shape extent = shape(name);
     if (extent.size() != 2)
         refuse(path_, "the dataset '" + name + "' has " + std::to_string(extent.size()) + " axes, not 2");
-    const std::vector<double> values = read<double>(name);
-    return Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(extent[1]),
-                                             static_cast<Eigen::Index>(extent[0]));
+    const std::vector<T> values = read<T>(name);
+    return Eigen::Map<const Eigen::MatrixX<T>>(values.data(), static_cast<Eigen::Index>(extent[1]),
+                                               static_cast<Eigen::Index>(extent[0]));
 }
+
+template Eigen::MatrixXd Hdf5Reader::read_matrix(const std::string&) const;
+template Eigen::MatrixXf Hdf5Reader::read_matrix(const std::string&) const;
 
 namespace {
 

@@ -41,8 +41,13 @@ class Hdf5Writer {
                bool compressed = false) {
         write(name, std::span<const T>(values), std::move(shape), compressed);
     }
-    /// Shape {cols, rows}.
-    void write_matrix(const std::string& name, const Eigen::Ref<const Eigen::MatrixXd>& matrix);
+    /// Shape {cols, rows}; double or float.
+    template <class T>
+    void write_matrix(const std::string& name, const Eigen::MatrixX<T>& matrix, bool compressed = false) {
+        write(name, std::span<const T>(matrix.data(), static_cast<std::size_t>(matrix.size())),
+              {static_cast<std::uint64_t>(matrix.cols()), static_cast<std::uint64_t>(matrix.rows())},
+              compressed);
+    }
     /// Writes UTF-8 texts of any length.
     void write_texts(const std::string& name, const std::vector<std::string>& texts);
 
@@ -94,8 +99,9 @@ class Hdf5Reader {
     /// All values of a dataset, converted to T where the file holds another kind of number.
     template <class T>
     [[nodiscard]] std::vector<T> read(const std::string& name) const;
-    /// A dataset of shape {cols, rows} as a matrix of rows x cols.
-    [[nodiscard]] Eigen::MatrixXd read_matrix(const std::string& name) const;
+    /// A dataset of shape {cols, rows} as a matrix of rows x cols; double or float.
+    template <class T = double>
+    [[nodiscard]] Eigen::MatrixX<T> read_matrix(const std::string& name) const;
     [[nodiscard]] std::vector<std::string> read_texts(const std::string& name) const;
 
     [[nodiscard]] std::int64_t integer(const std::string& name) const;

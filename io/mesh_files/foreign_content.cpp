@@ -107,7 +107,7 @@ std::optional<std::string> foreign_content(std::string_view bytes, std::string_v
     const std::size_t first = bytes.find_first_not_of("\xef\xbb\xbf \t\r\n");
     const std::string beginning = lower_case_beginning(bytes.substr(std::min(first, bytes.size())));
     if (beginning.starts_with("<") && is_vtk_xml(beginning)) {
-        if (format == "VTK") return std::nullopt;
+        if (format == "VTP") return std::nullopt;
         return "a VTK file in XML by its content; if it is PolyData, give it the suffix .vtp";
     }
     if (std::optional<std::string> what = not_a_mesh(bytes, beginning)) return what;

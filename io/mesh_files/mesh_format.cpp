@@ -36,10 +36,11 @@ constexpr std::array<MeshFormat, 7> formats{{
      .gather = with_buffer_files,
      .write_like = write_glb_like},
     {.name = "glTF", .suffix = ".gltf", .read = read_gltf, .gather = with_buffer_files},
-    {.name = "VTK",
+    {.name = "VTP",
      .suffix = ".vtp",
      .read = read_vtp,
      .write = write_vtp,
+     .export_name = "vtk",
      .keeps_values = true,
      .write_collection = write_vtm,
      .collection_suffix = ".vtm"},
@@ -50,6 +51,10 @@ std::string in_lower_case(std::string_view text) {
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return lower;
+}
+
+std::string export_name(const MeshFormat& format) {
+    return format.export_name.empty() ? in_lower_case(format.name) : std::string(format.export_name);
 }
 
 std::vector<MeshFormat> readable() {
@@ -78,14 +83,14 @@ const MeshFormat* readable_format_of(const std::string& path) {
 std::vector<std::string> writable_formats() {
     std::vector<std::string> names;
     for (const MeshFormat& format : formats) {
-        if (format.write != nullptr) names.push_back(in_lower_case(format.name));
+        if (format.write != nullptr) names.push_back(export_name(format));
     }
     return names;
 }
 
 const MeshFormat& writable_format(const std::string& name) {
     for (const MeshFormat& format : formats) {
-        if (format.write != nullptr && in_lower_case(format.name) == name) return format;
+        if (format.write != nullptr && export_name(format) == name) return format;
     }
     throw Error(ExitCode::internal, "no mesh format '" + name + "' is written");
 }

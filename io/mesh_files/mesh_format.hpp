@@ -32,6 +32,9 @@ struct MeshFormat {
     /// no array of parts, or an array has not one value per face. nullptr for a format that is only read.
     void (*write)(const std::string& path, const PolygonMesh& mesh, const FaceArrays& arrays) = nullptr;
 
+    /// What `coseg export --to` calls it; empty for its name in lower case.
+    std::string_view export_name = {};
+
     /// Makes one string of the bytes of the file at `path` and of the files that it refers to and needs,
     /// which `read` then takes. Throws Error(input). nullptr if a file of the format stands alone.
     std::string (*gather)(std::string bytes, const std::string& path) = nullptr;

@@ -7,6 +7,7 @@
 #include "mpi_drivers/assignment.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
+#include "src/parallel/rank_limit.hpp"
 
 namespace coseg {
 
@@ -49,7 +50,7 @@ Command add_assign_command(CLI::App& parent) {
         ->type_name("DIR");
     app->add_option("--ranks", options->ranks,
                     "Ranks of a command that is started without mpirun; 0: one for each core")
-        ->check(CLI::Range(0, 100000));
+        ->check(CLI::Range(0, most_ranks_of_a_launch));
     app->add_flag("--sheet,!--no-sheet", own.output.sheet, "Draw contact_sheet.png (on by default)");
     app->add_flag("--html,!--no-html", own.output.html, "Write report.html (on by default)");
     app->add_option("--view", own.output.view.view, "View of the picture; see coseg render --help")

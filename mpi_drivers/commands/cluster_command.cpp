@@ -11,10 +11,10 @@
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
-#include "solvers/numeric/blas.hpp"
-#include "solvers/petsc/petsc_session.hpp"
+#include "mpi_drivers/process/checked_petsc.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/records/part_limits.hpp"
 
 namespace coseg {
 
@@ -42,11 +42,7 @@ nlohmann::ordered_json to_json(const SubspaceProblem& problem, const SolveResult
 
 void cluster_file(const Invocation& invocation, const ClusterSettings& settings) {
     const Comm& comm = invocation.world;
-    const std::string unknown = unknown_petsc_option(invocation.petsc_arguments);
-    if (!unknown.empty())
-        throw AgreedError(ExitCode::usage, "after --: " + unknown + " is not an option of PETSc or SLEPc");
-    const PetscSession session(invocation.petsc_arguments);
-    agree(comm, reserve_blas_memory);
+    const CheckedPetsc petsc(comm, invocation.petsc_arguments);
     ClusterData data;
     data.name = settings.path;
     agree(comm, [&] {
@@ -59,6 +55,7 @@ void cluster_file(const Invocation& invocation, const ClusterSettings& settings)
     const auto [problem, solution] = solve_clusters(comm, data, settings.cluster);
     write_coefficients(comm, solution, settings.coefficients);
     const CutResult result = cut_clusters(comm, data, solution, settings.cluster);
+    if (!invocation.petsc_arguments.empty()) CheckedPetsc::refuse_unused(comm);
     agree(comm, [&] {
         if (comm.is_root()) write_labels(settings.out, result.part_of_patch);
     });
@@ -89,7 +86,7 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
           std::tuple{"--lambda", &settings.cluster.lambda, "Weight of the squared sums"}}) {
         app.add_option(name, *value, help)
             ->check(finite_number)
-            ->check(CLI::Range(0.0, 1e12))
+            ->check(CLI::Range(0.0, most_penalty))
             ->capture_default_str();
     }
     app.add_flag("--unit-columns", settings.cluster.unit_columns,
@@ -99,14 +96,14 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
 void add_limits(CLI::App& app, ClusterSettings& settings) {
     app.add_option("--gap", settings.cluster.solve.gap, "Stop at this relative duality gap")
         ->check(finite_number)
-        ->check(gap_from(1e-14))
+        ->check(gap_from(least_gap))
         ->capture_default_str();
     app.add_option("--max-iterations", settings.cluster.solve.max_iterations, "Stop after so many iterations")
-        ->check(CLI::Range(1, 1 << 30))
+        ->check(CLI::Range(1, most_solve_iterations))
         ->capture_default_str();
     app.add_option("--max-seconds", settings.cluster.solve.max_seconds, "Stop after so many seconds")
         ->check(finite_number)
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(CLI::Range(0.0, most_solve_seconds))
         ->capture_default_str();
 }
 
@@ -121,7 +118,7 @@ Command add_cluster_command(CLI::App& parent) {
         ->required();
     app->add_option("--parts", settings->cluster.parts, "Number of clusters K")
         ->required()
-        ->check(CLI::Range(1, 1000));
+        ->check(CLI::Range(1, most_parts));
     app->add_option("--out", settings->out, "Text file for the clusters: one number a line, 0 .. K-1")
         ->required()
         ->type_name("FILE");

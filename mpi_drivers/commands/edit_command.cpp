@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -22,8 +21,10 @@
 #include "mpi_drivers/process/checked_petsc.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/base/text.hpp"
 #include "src/parallel/rank_limit.hpp"
 #include "src/parallel/record_exchange.hpp"
+#include "src/records/part_limits.hpp"
 
 namespace coseg {
 
@@ -44,9 +45,8 @@ bool is_corrected(const FinishedRun& run) {
 }
 
 int number_of_parts(const std::string& text) {
-    int parts = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parts);
-    if (error == std::errc() && end == text.data() + text.size() && parts >= 1 && parts <= 1000) return parts;
+    const std::optional<int> parts = whole_number(text);
+    if (parts && *parts >= 1 && *parts <= most_parts) return *parts;
     throw Error(ExitCode::input, "report.json: '" + text + "' is no number of parts; run coseg run again");
 }
 
@@ -112,8 +112,9 @@ std::vector<MeshEntry> entries_of(const FinishedRun& run, const std::vector<std:
 /// Corrections of a partition that the run does not have would come to nothing.
 void refuse_other_labels(const Comm& comm, const BasePartition& run, const std::string& folder,
                          StageLog& log) {
-    const std::vector<MeshLabels> labels = label_faces(run.collection, run.cut, run.options.partition.parts,
-                                                       run.options.output.refine, log, run.examples.faces);
+    const std::vector<MeshLabels> labels =
+        label_faces(comm, run.collection, run.cut, run.options.partition.parts, run.options.output.refine,
+                    log, run.examples.faces);
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {
             const std::string path =

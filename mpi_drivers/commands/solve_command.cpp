@@ -131,14 +131,14 @@ Command add_solve_command(CLI::App& parent) {
                     "How W is stored: all pairs (dense) or a working set");
     app->add_option("--gap", settings->options.gap, "Stop at this relative duality gap")
         ->check(finite_number)
-        ->check(gap_from(1e-14))
+        ->check(gap_from(least_gap))
         ->capture_default_str();
     app->add_option("--max-iterations", settings->options.max_iterations, "Stop after so many iterations")
-        ->check(CLI::Range(1, 1 << 30))
+        ->check(CLI::Range(1, most_solve_iterations))
         ->capture_default_str();
     app->add_option("--max-seconds", settings->options.max_seconds, "Stop after so many seconds")
         ->check(finite_number)
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(CLI::Range(0.0, most_solve_seconds))
         ->capture_default_str();
     return {app, [settings](const Invocation& invocation) { solve_file(invocation.world, *settings); }};
 }

@@ -35,9 +35,7 @@ void write_descriptors(Hdf5Writer& file, const FaceDescriptors& descriptors) {
             write_vector(file, name, *numbers);
             continue;
         }
-        const auto& vectors = std::get<Eigen::MatrixXf>(one.values);
-        file.write(name, std::span<const float>(vectors.data(), at(vectors.size())),
-                   {at(vectors.cols()), at(vectors.rows())}, true);
+        file.write_matrix(name, std::get<Eigen::MatrixXf>(one.values), true);
     }
 }
 
@@ -56,12 +54,7 @@ FaceDescriptors read_descriptors(const Hdf5Reader& file) {
             descriptors.push_back({static_cast<int>(row), read_vector(file, name)});
             continue;
         }
-        const Hdf5Shape extent = file.shape(name);
-        const std::vector<float> values = file.read<float>(name);
-        descriptors.push_back(
-            {static_cast<int>(row), Eigen::MatrixXf(Eigen::Map<const Eigen::MatrixXf>(
-                                        values.data(), static_cast<Eigen::Index>(extent.at(1)),
-                                        static_cast<Eigen::Index>(extent.at(0))))});
+        descriptors.push_back({static_cast<int>(row), file.read_matrix<float>(name)});
     }
     return descriptors;
 }

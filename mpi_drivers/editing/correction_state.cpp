@@ -13,12 +13,12 @@
 #include "src/base/index.hpp"
 #include "src/base/spelling.hpp"
 #include "src/mesh/face_map.hpp"
+#include "src/records/part_limits.hpp"
 
 namespace coseg {
 
 namespace {
 
-constexpr int most_part_numbers = 1000;
 /// A half of a part has at least this share of its patches, if there is such a half.
 constexpr double least_half = 0.1;
 /// Below this share a half is lost in the vote of the over-segmentations.
@@ -206,8 +206,8 @@ void CorrectionState::merge(const Correction& c) {
 }
 
 void CorrectionState::add_part() {
-    if (part_count() >= most_part_numbers)
-        throw Error(ExitCode::input, "there are " + std::to_string(most_part_numbers) + " parts already");
+    if (part_count() >= most_parts)
+        throw Error(ExitCode::input, "there are " + std::to_string(most_parts) + " parts already");
     is_live_.push_back(true);
     absent_.conservativeResize(part_count(), Eigen::NoChange);
     absent_.bottomRows<1>().setConstant(-1);

@@ -1,7 +1,6 @@
 #include "mpi_drivers/editing/edit_desk.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <optional>
 #include <thread>
@@ -25,15 +24,8 @@ constexpr int shown_faces = 40'000;
 /// How often ranks that wait look whether there is something to do.
 constexpr std::chrono::milliseconds look_interval{1};
 
-std::optional<int> number_in(const std::string& word) {
-    int number = 0;
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (word.empty() || failure != std::errc() || end != word.data() + word.size()) return std::nullopt;
-    return number;
-}
-
 int required_number(const std::string& word, const std::string& what) {
-    const std::optional<int> number = number_in(word);
+    const std::optional<int> number = whole_number(word);
     if (!number) throw Error(ExitCode::usage, what + " must be a number, not '" + word + "'");
     return *number;
 }
@@ -90,7 +82,7 @@ void EditDesk::serve(LocalServer* server) {
 }
 
 int EditDesk::mesh_number(const std::string& word) const {
-    const std::optional<int> number = number_in(word);
+    const std::optional<int> number = whole_number(word);
     if (!number || *number < 0 || *number >= static_cast<int>(base_.collection.meshes.size()))
         throw AgreedError(ExitCode::usage, "there is no shape " + word);
     return *number;
@@ -124,7 +116,7 @@ HttpReply EditDesk::changed_by(const Order& order) {
         return {200, "application/json", tree.line()};
     }
     const std::string revision = query_value(order.query, "revision");
-    if (number_in(revision) != session_.revision())
+    if (whole_number(revision) != session_.revision())
         return refusal(409,
                        "something was done in another page meanwhile; this one now shows it, so please look "
                        "again");

@@ -14,6 +14,7 @@
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
+#include "src/records/part_limits.hpp"
 
 namespace coseg {
 
@@ -112,8 +113,9 @@ void add_solution(Segmentation& result, const SolveResult& solution, double gap)
 
 RunOptions run_options(const SegmentOptions& given) {
     RunOptions options = options_by_name(given.options);
-    if (given.parts != automatic_parts && (given.parts < 1 || given.parts > 1000))
-        throw Error(ExitCode::usage, "parts: " + std::to_string(given.parts) + " is not in 1 .. 1000");
+    if (given.parts != automatic_parts && (given.parts < 1 || given.parts > most_parts))
+        throw Error(ExitCode::usage, "parts: " + std::to_string(given.parts) + " is not in 1 .. " +
+                                         std::to_string(most_parts));
     options.partition.parts = given.parts == automatic_parts ? found_parts : given.parts;
     options.output.keep_model = given.keep_model;
     options.output.folder = given.folder;

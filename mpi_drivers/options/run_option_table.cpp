@@ -12,6 +12,7 @@
 #include "src/descriptors/descriptor_table.hpp"
 #include "src/parallel/rank_limit.hpp"
 #include "src/pictures/shape_view.hpp"
+#include "src/records/part_limits.hpp"
 
 namespace coseg {
 
@@ -170,9 +171,10 @@ void RunOptionTable::add_input_and_output(OptionSet set) {
     add_switch({"strict", Affects::nothing, in_out_group,
                 "A mesh that cannot be used ends the run instead of being set aside"},
                process.strict);
-    add_switch({"keep-features", Affects::output, in_out_group,
-                "Also write DIR/features.h5, which coseg cluster reads"},
-               options_.output.keep_features);
+    if (set == OptionSet::run)
+        add_switch({"keep-features", Affects::output, in_out_group,
+                    "Also write DIR/features.h5, which coseg cluster reads"},
+                   options_.output.keep_features);
     add_switch({"quiet", Affects::nothing, in_out_group, "No progress lines; warnings and errors only"},
                process.quiet);
     add_switch({"verbose", Affects::nothing, in_out_group, "Also say what the steps of a stage took"},
@@ -229,7 +231,7 @@ void RunOptionTable::add_results() {
         {"parts", Affects::cut, in_out_group,
          "Number of parts K that the shapes are cut into, 1 to 1000, or auto: 2 to 12, found from the "
          "shapes; required but with --examples, which say it"},
-        options_.partition.parts, found_parts, 1000);
+        options_.partition.parts, found_parts, most_parts);
     // Where the labels are has no effect; they themselves are part of what a cut is found by.
     add({"examples", Affects::nothing, in_out_group,
          "Folder with labels of yours for one shape or more, NAME.seg with a number a face (0, 1, ..., or -1 "
@@ -402,11 +404,11 @@ void RunOptionTable::add_problem() {
     add({"alpha", Affects::solve, optimise_group,
          "Weight of the l2,1 penalty: consistency over the features"},
         optimise.alpha)
-        ->check(CLI::Range(0.0, 1e12));
+        ->check(CLI::Range(0.0, most_penalty));
     add({"beta", Affects::solve, optimise_group, "Weight of the l1 penalty: sparseness"}, optimise.beta)
-        ->check(CLI::Range(0.0, 1e12));
+        ->check(CLI::Range(0.0, most_penalty));
     add({"lambda", Affects::solve, optimise_group, "Weight of the squared sums"}, optimise.lambda)
-        ->check(CLI::Range(0.0, 1e12));
+        ->check(CLI::Range(0.0, most_penalty));
 }
 
 void RunOptionTable::add_solver() {

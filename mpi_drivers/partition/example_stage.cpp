@@ -14,12 +14,11 @@
 #include "src/base/text.hpp"
 #include "src/parallel/record_exchange.hpp"
 #include "src/patches/patch_label_areas.hpp"
+#include "src/records/part_limits.hpp"
 
 namespace coseg {
 
 namespace {
-
-constexpr int most_parts = 1000;
 
 std::string label_path(const std::string& folder, const std::string& name) {
     return folder + "/" + name + label_suffix;

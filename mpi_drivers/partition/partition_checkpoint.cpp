@@ -126,7 +126,8 @@ CutResult PartitionCheckpoint::cut(const PartitionInput& input, const PartitionO
     std::vector<std::string> damage;
     std::optional<CutResult> found;
     // Every rank reads, so that a file which one of them cannot read is given up by all.
-    const bool is_there = every_rank(comm_, std::filesystem::exists(file));
+    std::error_code ignored;  // what cannot be looked at cannot be read either
+    const bool is_there = every_rank(comm_, std::filesystem::exists(file, ignored));
     try {
         if (is_there) found = read_cut(file);
     } catch (const Error& error) {

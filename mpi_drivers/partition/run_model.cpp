@@ -100,12 +100,6 @@ RunOptions read_options(const Hdf5Reader& file) {
     return options;
 }
 
-void write_float_matrix(Hdf5Writer& file, const std::string& name, const Eigen::MatrixXf& matrix,
-                        bool compressed) {
-    file.write(name, std::span<const float>(matrix.data(), at(matrix.size())),
-               {at(matrix.cols()), at(matrix.rows())}, compressed);
-}
-
 std::string range_name(const Descriptor& descriptor) { return "ranges/" + descriptor.name; }
 std::string words_name(const Descriptor& descriptor, std::size_t set) {
     return "words/" + descriptor.name + "/" + std::to_string(set);
@@ -122,15 +116,8 @@ void write_bins(Hdf5Writer& file, const ModelPatches& patches) {
         }
         const auto& words = std::get<std::vector<Eigen::MatrixXf>>(patches.bins[h]);
         for (std::size_t set = 0; set < words.size(); ++set)
-            write_float_matrix(file, words_name(descriptor, set), words[set], false);
+            file.write_matrix(words_name(descriptor, set), words[set]);
     }
-}
-
-Eigen::MatrixXf read_float_matrix(const Hdf5Reader& file, const std::string& name) {
-    const Hdf5Shape extent = file.shape(name);
-    const std::vector<float> values = file.read<float>(name);
-    return Eigen::Map<const Eigen::MatrixXf>(values.data(), static_cast<Eigen::Index>(extent.at(1)),
-                                             static_cast<Eigen::Index>(extent.at(0)));
 }
 
 FeatureBins read_bins(const Hdf5Reader& file, const Descriptor& descriptor) {
@@ -138,7 +125,7 @@ FeatureBins read_bins(const Hdf5Reader& file, const Descriptor& descriptor) {
         return FeatureRange{RangeKind::global_percentile, file.read<double>(range_name(descriptor))};
     std::vector<Eigen::MatrixXf> words;
     for (std::size_t set = 0; file.has(words_name(descriptor, set)); ++set)
-        words.push_back(read_float_matrix(file, words_name(descriptor, set)));
+        words.push_back(file.read_matrix<float>(words_name(descriptor, set)));
     return words;
 }
 
@@ -151,7 +138,7 @@ void read_features(const Hdf5Reader& file, RunModel& model) {
     for (const Descriptor& descriptor : table) {
         const std::string name = "features/" + descriptor.name;
         if (!file.has(name)) continue;
-        model.histograms.push_back(read_float_matrix(file, name).cast<double>());
+        model.histograms.push_back(file.read_matrix<float>(name).cast<double>());
         model.bins.push_back(read_bins(file, descriptor));
     }
 }
@@ -224,7 +211,7 @@ void write_patches(Hdf5Writer& file, const Collection& collection, const ModelPa
                    const std::vector<int>& part_of_patch) {
     const KeptPatchPlaces places = places_of(collection, patches, part_of_patch);
     for (std::size_t h = 0; h < patches.histograms.size(); ++h) {
-        write_float_matrix(file, "features/" + patches.descriptors[h].name, patches.histograms[h], true);
+        file.write_matrix("features/" + patches.descriptors[h].name, patches.histograms[h], true);
     }
     file.write("mesh_of", places.mesh_of);
     file.write("part_of_patch", places.parts);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "src/base/error.hpp"
+#include "src/base/text.hpp"
 #include "src/parallel/rank_limit.hpp"
 
 namespace coseg {
@@ -25,13 +25,6 @@ namespace {
 constexpr std::array<const char*, 6> marks_of_launchers{
     "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_STEPID", "ALPS_APP_PE"};
 constexpr std::array<std::string_view, 3> commands_in_parallel{"run", "assign", "edit"};
-
-std::optional<int> number_in(std::string_view text) {
-    int number = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 /// Of what stands before `--`; the last one counts, as for every option.
 std::optional<std::string_view> ranks_option(const std::vector<std::string_view>& words) {
@@ -51,7 +44,7 @@ int usable_cores() {
 }
 
 int ranks_of_variable(const std::string& text) {
-    const std::optional<int> ranks = number_in(text);
+    const std::optional<int> ranks = whole_number(text);
     if (ranks && *ranks >= 0 && *ranks <= most_ranks_of_a_launch)
         return *ranks == 0 ? usable_cores() : *ranks;
     std::fprintf(stderr, "coseg: COSEG_RANKS: '%s' is no number of ranks from 0 to %d\n", text.c_str(),
@@ -60,7 +53,7 @@ int ranks_of_variable(const std::string& text) {
 }
 
 int wanted_ranks(const std::vector<std::string_view>& words) {
-    if (const auto option = ranks_option(words)) return number_in(*option).value_or(1);
+    if (const auto option = ranks_option(words)) return whole_number(*option).value_or(1);
     if (const char* variable = std::getenv("COSEG_RANKS")) return ranks_of_variable(variable);
     return usable_cores();
 }

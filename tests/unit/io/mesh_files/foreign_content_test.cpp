@@ -45,7 +45,7 @@ TEST(ForeignContent, FilesThatAreNoMeshes) {
     expect_named("{\"asset\": {\"version\": \"2.0\"}}", "a glTF file by its content", {"GLB", "glTF"});
     expect_named("# vtk DataFile Version 3.0\n", "a VTK file");
     expect_named("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">", "a VTK file in XML by its content",
-                 {"VTK"});
+                 {"VTP"});
     expect_named("<?xml version=\"1.0\"?>\n<COLLADA>", "an XML file");
     expect_named(std::string(500, '\0'), "nothing but zeros");
     expect_named(with_zeros("\xff\xfe\0\0v\0\0\0 \0\0\0"), "text in UTF-32");

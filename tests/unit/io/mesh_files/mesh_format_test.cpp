@@ -39,7 +39,7 @@ TEST(MeshFormat, SuffixesAreLowerCaseAndUnique) {
 }
 
 TEST(MeshFormat, ListsForMessages) {
-    EXPECT_EQ(readable_formats(), "OFF, OBJ, PLY, STL, GLB, glTF, VTK");
+    EXPECT_EQ(readable_formats(), "OFF, OBJ, PLY, STL, GLB, glTF, VTP");
     EXPECT_EQ(readable_suffixes("or"), ".off, .obj, .ply, .stl, .glb, .gltf or .vtp");
 }
 

@@ -45,5 +45,13 @@ TEST(Text, OneThingIsNamedInTheSingular) {
     EXPECT_EQ(with_unit(20, "vertex", "vertices"), "20 vertices");
 }
 
+TEST(Text, ReadsWholeNumbersAndNothingElse) {
+    EXPECT_EQ(whole_number("0"), 0);
+    EXPECT_EQ(whole_number("-12"), -12);
+    EXPECT_EQ(whole_number("2147483647"), 2147483647);
+    for (const char* bad : {"", " 1", "1 ", "+1", "1.0", "0x1", "2147483648", "-", "one"})
+        EXPECT_FALSE(whole_number(bad).has_value()) << bad;
+}
+
 }  // namespace
 }  // namespace coseg
