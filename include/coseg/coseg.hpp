@@ -82,10 +82,12 @@ struct ShapeLabels {
 /// How far the coefficients of the subspace problem are from the optimum. docs/method.md gives the problem.
 struct Certificate {
     double objective = 0.0;
-    double lower_bound = 0.0;   ///< proven; no coefficients have a smaller objective
-    double relative_gap = 0.0;  ///< (objective - lower bound) / objective
-    bool reached = false;       ///< whether the gap that was asked for was reached
-    std::string reason;         ///< gap_reached, residual_reached, iteration_limit or time_limit
+    double lower_bound = 0.0;  ///< proven; no coefficients have a smaller objective
+    /// (objective - lower bound) / objective in row scope, where the divisor is at least 1e-6 of the
+    /// objective of W = 0; in mesh scope the divisor is the decrease of the objective from W = 0.
+    double relative_gap = 0.0;
+    bool reached = false;  ///< whether the gap that was asked for was reached
+    std::string reason;    ///< gap_reached, residual_reached, iteration_limit or time_limit
     std::int64_t iterations = 0;
     std::int64_t nonzero_pairs = 0;  ///< pairs of patches with a coefficient
 };

@@ -41,7 +41,7 @@ Command add_assign_command(CLI::App& parent) {
     app->add_option("--state", own.process.state, "Folder that keeps descriptions of meshes, as of coseg run")
         ->type_name("DIR");
     app->add_option("--face-features", own.features.face_features,
-                    "Folder with what the run had of its shapes, of the new ones; see coseg run --help")
+                    "Folder with the face features of the new shapes, of the same kind as the run's")
         ->type_name("DIR");
     app->add_option(
            "--examples", own.partition.examples,

@@ -90,7 +90,7 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
             ->capture_default_str();
     }
     app.add_flag("--unit-columns", settings.cluster.unit_columns,
-                 "Scale every column of every feature to norm 1 first");
+                 "Scale every item of every feature to norm 1 first");
 }
 
 void add_limits(CLI::App& app, ClusterSettings& settings) {
@@ -112,9 +112,10 @@ void add_limits(CLI::App& app, ClusterSettings& settings) {
 Command add_cluster_command(CLI::App& parent) {
     auto settings = std::make_shared<ClusterSettings>();
     CLI::App* app = parent.add_subcommand(
-        "cluster", "Cluster the columns of your own feature matrices: solver, affinity and normalised cut");
+        "cluster", "Cluster the items of your own feature matrices: solver, affinity and normalised cut");
     app->add_option("features", settings->path,
-                    "HDF5 file with the group 'features'; layout in docs/formats.md")
+                    "HDF5 file with the group 'features', whose datasets have a row for each item; layout in "
+                    "docs/formats.md")
         ->required();
     app->add_option("--parts", settings->cluster.parts, "Number of clusters K")
         ->required()
@@ -127,7 +128,7 @@ Command add_cluster_command(CLI::App& parent) {
         ->type_name("FILE");
     add_problem_options(*app, *settings);
     add_enum_option(*app, "--affinity", settings->cluster.affinity,
-                    "formula-8 (the paper's) or links (every column sums to 1)");
+                    "formula-8 (the paper's) or links (every item's own links sum to 1)");
     app->add_option("--adjacency", settings->cluster.adjacency,
                     "Weight of the file's neighbours and overlaps")
         ->check(finite_number)

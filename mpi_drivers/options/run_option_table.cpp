@@ -141,8 +141,9 @@ void RunOptionTable::add_preset() {
              [this] { return options_.preset; });
     app_.add_option_function<std::string>(
             "--preset", [this](const std::string& preset) { options_ = preset_options(preset); },
-            "default; paper: its literal text; or a baseline: single:FEATURE, independent, concatenated "
-            "(features), descriptor-space (Sidi et al. 2011); other options override it")
+            "default; paper: the paper's text, and where that is silent the code that it names; or a "
+            "baseline: single:FEATURE, independent, concatenated (features), descriptor-space (Sidi et al. "
+            "2011); other options override it")
         ->check(CLI::IsMember(preset_names()))
         ->default_str("default")
         ->group(in_out_group);
@@ -205,10 +206,6 @@ void RunOptionTable::add_picture() {
         output.view.view)
         ->check(view_name);
     add({"up", Affects::output, picture_group, "The axis that points up: auto, x, y, z"}, output.view.up);
-    add({"align", Affects::cut, picture_group,
-         "Shapes that do not stand alike are turned by their parts, for pictures, places and "
-         "DIR/alignment.json: auto, off"},
-        options_.partition.align);
 }
 
 CLI::Option* RunOptionTable::add_number_or_auto(const Row& row, int& variable, int found, int most) {
@@ -230,7 +227,7 @@ void RunOptionTable::add_results() {
     add_number_or_auto(
         {"parts", Affects::cut, in_out_group,
          "Number of parts K that the shapes are cut into, 1 to 1000, or auto: 2 to 12, found from the "
-         "shapes; required but with --examples, which say it"},
+         "shapes; required unless --examples is given"},
         options_.partition.parts, found_parts, most_parts);
     // Where the labels are has no effect; they themselves are part of what a cut is found by.
     add({"examples", Affects::nothing, in_out_group,
@@ -429,7 +426,7 @@ void RunOptionTable::add_solver() {
 void RunOptionTable::add_partition() {
     PartitionOptions& partition = options_.partition;
     add({"affinity", Affects::cut, partition_group,
-         "links (row-normalised links between meshes) or formula-8 (the paper's)"},
+         "links (every patch's own links sum to 1) or formula-8 (the paper's)"},
         partition.affinity);
     add({"drop-below", Affects::cut, partition_group,
          "Entries of the affinity below this are dropped; the paper's code has 1e-6"},
@@ -437,8 +434,7 @@ void RunOptionTable::add_partition() {
         ->check(CLI::Range(0.0, 1.0));
     add({"cut-offset", Affects::cut, partition_group,
          "What the normalised cut adds to the affinity's diagonal, and twice to the degrees; the paper's "
-         "code "
-         "has 0.5, which leaves --mesh-balance without a meaning"},
+         "code has 0.5 (cannot be combined with --mesh-balance)"},
         partition.cut_offset)
         ->check(CLI::Range(0.0, 1e6));
     add({"adjacency", Affects::cut, partition_group,
@@ -451,7 +447,7 @@ void RunOptionTable::add_partition() {
         partition.overlap)
         ->check(CLI::Range(0.0, 1000.0));
     add({"mesh-balance", Affects::cut, partition_group,
-         "How dear it is to cut whole shapes apart instead of parts; 0 gives the paper's cut"},
+         "Penalty tau on cutting between whole shapes (0: the paper's cut)"},
         partition.mesh_balance)
         ->check(CLI::Range(0.0, 1.0));
 }
@@ -490,6 +486,10 @@ void RunOptionTable::add_choice() {
                 "With --choose: cuts with links weighed by where their patches lie among those tried, for "
                 "shapes that stand alike"},
                partition.places);
+    add({"align", Affects::cut, partition_group,
+         "Shapes that do not stand alike are turned by their parts, for pictures, places and "
+         "DIR/alignment.json: auto, off"},
+        partition.align);
 }
 
 std::vector<OptionValue> RunOptionTable::values() const {

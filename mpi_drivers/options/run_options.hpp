@@ -41,10 +41,10 @@ DescriptionOptions description_options(const RunOptions& options);
 /// The names of the presets, in the order of --help.
 std::vector<std::string> preset_names();
 
-/// The values that a preset stands for: "default"; "paper" for the literal text of Hu, Fan and Liu (2012);
-/// and what the two are to be compared with: "single:FEATURE", "independent", "concatenated",
-/// "descriptor-space". Options given on the command line or in the configuration file override the preset's.
-/// `preset`: one of preset_names().
+/// The values that a preset stands for: "default"; "paper" for the text of Hu, Fan and Liu (2012), and where
+/// that is silent for the code that it names; and what the two are to be compared with: "single:FEATURE",
+/// "independent", "concatenated", "descriptor-space". Options given on the command line or in the
+/// configuration file override the preset's. `preset`: one of preset_names().
 RunOptions preset_options(const std::string& preset);
 
 }  // namespace coseg

@@ -34,8 +34,8 @@ struct PatchPlaces {
     }
 };
 
-/// The patches of the run's meshes, or of a hashed sample of them. The sample has as many meshes as a patch
-/// of a run is linked to (solvers/subspace/mesh_links.hpp), so that the file stays small for any collection.
+/// The patches of the run's meshes, or of a hashed sample of 64 of them where the run has more than 128, so
+/// that the file stays small for any collection.
 struct RunModel {
     /// The options on which descriptions, features, penalties and labels depend; defaults elsewhere.
     RunOptions options;

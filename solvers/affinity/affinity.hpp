@@ -35,8 +35,7 @@ void apply_minima_rule(SparseRows& affinity, const std::vector<GlobalPatchNeighb
 
 /// A_ij = boundary length (1 - mc)^5, where each mesh is scaled to a total of 1; rows `range`. `mesh_of`: the
 /// mesh of each patch. Deviates: this is not in the paper, whose minima rule only weakens entries that exist.
-/// The exponent decides how much of A lies across the boundaries of true parts: with 3 and 5, 4.3 and 3.0 %
-/// on aeroplanes, 6.4 and 5.4 % on pliers.
+/// The larger the exponent, the less of A lies across creases.
 SparseRows adjacency_affinity(BlockRange range, const std::vector<GlobalPatchNeighbors>& neighbors,
                               const std::vector<int>& mesh_of);
 

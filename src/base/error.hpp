@@ -13,7 +13,7 @@ enum class ExitCode : int {
     usage = 2,          ///< unknown option, value out of range, unused PETSc option
     input = 3,          ///< a mesh, label file, problem or list that cannot be used
     output = 4,         ///< a file or folder that cannot be written
-    not_converged = 5,  ///< a solver stopped without an answer that can be trusted
+    not_converged = 5,  ///< a gap was not reached (results are written), or an eigenproblem failed
     checkpointed = 75,  ///< ended on a signal with the state written; the same command continues
 };
 

@@ -45,10 +45,12 @@ using SolveHistory = std::vector<HistoryRow>;
 
 /// The certificate of a solve; the same on all ranks.
 struct SolveSummary {
-    double objective = 0.0;           ///< at the coefficients; an upper bound of the optimum
-    double objective_at_zero = 0.0;   ///< sum_h ||X_h||_F^2
-    double lower_bound = 0.0;         ///< of the optimum; rounding is allowed for
-    double relative_gap = 0.0;        ///< as the function of this name has it
+    double objective = 0.0;          ///< at the coefficients; an upper bound of the optimum
+    double objective_at_zero = 0.0;  ///< sum_h ||X_h||_F^2
+    double lower_bound = 0.0;        ///< of the optimum; rounding is allowed for
+    /// (objective - lower_bound) / max(objective, 1e-6 objective_at_zero) in row scope; in mesh scope the
+    /// divisor is objective_at_zero - objective. 0 where both bounds agree to the last bits.
+    double relative_gap = 0.0;
     double kkt_residual = 0.0;        ///< norm of (W - prox(W - t G)) / t, relative to the size of G at W = 0
     int iterations = 0;               ///< in mesh scope, of the column that took most
     int passes = 0;                   ///< over all pairs; of several solves, of all of them
