@@ -63,8 +63,8 @@ struct CutOptions {
     PartitionsByNumber guides;  ///< that the levels of the tree should agree with; may be empty
     ChoiceWeights choice;
     ExampleWeights examples;
-    /// Up to this number of entries of the base affinity, a start is the work of one rank, which takes about
-    /// 90 bytes an entry. Above it no node holds all links, and the choice does without links_inside.
+    /// Up to this number of entries of the base affinity, a start is the work of one rank (docs/scaling.md
+    /// has the bytes). Above it no node holds all links, and the choice does without links_inside.
     std::int64_t one_rank_entries = 60'000'000;
 };
 
