@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Submits the co-segmentation of a collection to Slurm: one job for a small collection; for a larger one an array that
-# describes it and a job after it that solves. Interrupted jobs go back into the queue and continue.
+# Submits the co-segmentation of a collection to Slurm: one job for up to 200 meshes; for more an array that describes them,
+# 500 meshes a shard, and a job after it that solves. Interrupted jobs go back into the queue and continue.
 #
 #   ./jobs/submit.sh COLLECTION K [--dry-run] [--out DIR] [--state DIR] [--ntasks N] [--time LIMIT] [-- OPTION OF coseg run ...]
 #
-# COLLECTION is a folder of meshes or @LIST. --dry-run prints the commands instead. Defaults: OUT = COLLECTION-K, STATE = coseg-state,
+# COLLECTION is a folder of meshes or @LIST, K a number. --dry-run prints the commands instead. Defaults: OUT = COLLECTION-K, STATE = coseg-state,
 # 16 ranks, 4 hours. Exports COSEG_HOME (this project) and, if set, COSEG (the program) to the jobs.
 set -euo pipefail
 

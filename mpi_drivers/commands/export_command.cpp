@@ -239,7 +239,7 @@ Command add_export_command(CLI::App& parent) {
     app->add_flag("--descriptors,!--no-descriptors", options->descriptors,
                   "Compute the descriptors again for vtk and borders (on by default)");
     app->add_option("--truth", options->input.truth,
-                    "Folder of known labels, NAME.seg: become the array truth");
+                    "Folder of true labels, NAME.seg: become the array truth");
     app->add_option("--meshes", options->input.meshes,
                     "Where the meshes are now, if not where the run found them: files, folders or @LIST")
         ->type_name("MESH|DIRECTORY|@LIST");

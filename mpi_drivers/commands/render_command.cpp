@@ -42,7 +42,7 @@ std::string comma_separated(const std::vector<std::string>& words) {
     return text;
 }
 
-/// --names, else what lies beside the known labels, else none. Collective; throws AgreedError(input).
+/// --names, else what lies beside the true labels, else none. Collective; throws AgreedError(input).
 LabelNames chosen_names(const Comm& world, const RenderOptions& options) {
     LabelNames names;
     agree(world, [&] {
@@ -60,7 +60,7 @@ LabelNames chosen_names(const Comm& world, const RenderOptions& options) {
 void render(const RenderOptions& options, const Comm& world) {
     if (needs_truth(options.kinds) && options.input.truth.empty())
         throw AgreedError(ExitCode::usage,
-                          "truth and errors need the folder of the known labels: --truth DIR");
+                          "truth and errors need the folder of the true labels: --truth DIR");
     const FinishedRun run = read_run(world, options.input.folder);
     const std::vector<LabelledMesh> shapes = read_shapes(world, run, options.input);
     PartKey key{{}, chosen_names(world, options)};
@@ -95,9 +95,9 @@ Command add_render_command(CLI::App& parent) {
         ->check(CLI::IsMember(sheet_kinds()))
         ->type_name("KIND,...");
     app->add_option("--truth", options->input.truth,
-                    "Folder of known labels, NAME.seg: for truth and errors, and to name the parts");
+                    "Folder of true labels, NAME.seg: for truth and errors, and to name the parts");
     app->add_option("--names", options->names,
-                    "Names for the legend, one a line or `NUMBER NAME`: of the known labels, or of the parts "
+                    "Names for the legend, one a line or `NUMBER NAME`: of the true labels, or of the parts "
                     "without --truth; labels.txt in the folder of --truth if not given")
         ->type_name("FILE");
     app->add_option("--meshes", options->input.meshes,

@@ -19,7 +19,7 @@ Command add_report_command(CLI::App& parent) {
         "report", "Write report.html of a finished run: one file to look at and to pass on");
     app->add_option("RESULT", input->folder, "The folder that coseg run was given with --out")->required();
     app->add_option("--truth", input->truth,
-                    "Folder of known labels, NAME.seg: accuracy and wrong faces are shown");
+                    "Folder of true labels, NAME.seg: accuracy and wrong faces are shown");
     app->add_option("--meshes", input->meshes,
                     "Where the meshes are now, if not where the run found them: files, folders or @LIST")
         ->type_name("MESH|DIRECTORY|@LIST");

@@ -21,7 +21,7 @@ struct PartSurface {
 PartSurface part_surface(const LabelledMesh& shape);
 
 /// The name of every part of the run. They are read from `file` if it is not empty, else from names.txt in
-/// the folder of the run, else from labels.txt beside the known labels (input.truth), where each part is
+/// the folder of the run, else from labels.txt beside the true labels (input.truth), where each part is
 /// called like the label for which it stands. A part without a name is called part_NUMBER. Collective; throws
 /// AgreedError(input).
 std::vector<std::string> names_of_parts(const Comm& comm, const FinishedRun& run,
