@@ -25,7 +25,7 @@
 #include "mpi_drivers/partition/cut_stage.hpp"
 #include "mpi_drivers/partition/example_stage.hpp"
 #include "mpi_drivers/process/checked_petsc.hpp"
-#include "solvers/partition/partition_search.hpp"
+#include "solvers/choice/partition_search.hpp"
 #include "solvers/partition/start_clusterings.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
@@ -102,7 +102,7 @@ class ClusteredCollection {
     Eigen::MatrixXd truth_;  // labels x N: the area of each patch on faces of each label
     std::vector<int> mesh_of_;
     std::optional<coseg::PartitionInput> input_;
-    std::optional<coseg::CutGraphs> graphs_;
+    std::optional<coseg::PreparedCut> graphs_;
     std::vector<coseg::PartitionCandidate> clusterings_;
     Weights weights_;
     double share_ = 1.0;   // what shares explained are multiplied with
@@ -141,17 +141,17 @@ ClusteredCollection::ClusteredCollection(const Comm& comm, const Settings& setti
     const coseg::CutOptions cut = cut_options(*input_, options);
     const std::vector<coseg::GlobalPatchNeighbors> neighbors = local_neighbors(run_.collection);
     const std::vector<coseg::GlobalPatchOverlap> overlaps = local_overlaps(run_.collection);
-    graphs_.emplace(cut_graphs(comm,
-                               {input_->coefficients,
-                                neighbors,
-                                overlaps,
-                                mesh_of_,
-                                input_->patch_area,
-                                {},
-                                input_->known_positions(),
-                                nullptr,
-                                &input_->features},
-                               cut));
+    graphs_.emplace(prepared_cut(comm,
+                                 {input_->coefficients,
+                                  neighbors,
+                                  overlaps,
+                                  mesh_of_,
+                                  input_->patch_area,
+                                  {},
+                                  input_->known_positions(),
+                                  nullptr,
+                                  &input_->features},
+                                 cut));
     const coseg::GraphInput graphs{graphs_->neighbors, graphs_->overlaps, mesh_of_,
                                    input_->known_positions()};
     // Starts that screening has left out of the run are not among its outcomes.

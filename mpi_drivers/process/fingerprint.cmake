@@ -23,7 +23,7 @@ set(cuts_GIVEN mpi_drivers/options mpi_drivers/process mpi_drivers/describe mpi_
 
 # The features of a model's patches: the features of a later mesh are compared with them.
 set(features_ROOTS mpi_drivers/describe/mesh_description.cpp mpi_drivers/describe/feature_stage.cpp)
-set(features_GIVEN mpi_drivers/options mpi_drivers/process solvers/partition src/pictures)
+set(features_GIVEN mpi_drivers/options mpi_drivers/process solvers/choice solvers/partition src/pictures)
 
 set(pieces descriptions solutions cuts features)
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "solvers/choice/partition_objective.hpp"
 #include "solvers/partition/corrected_parts.hpp"
-#include "solvers/partition/partition_objective.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 

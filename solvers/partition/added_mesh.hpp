@@ -7,8 +7,8 @@
 
 #include "solvers/affinity/global_patch_pairs.hpp"
 #include "solvers/affinity/sparse_rows.hpp"
+#include "solvers/choice/partition_terms.hpp"
 #include "solvers/partition/labelled_parts.hpp"
-#include "solvers/partition/partition_terms.hpp"
 #include "src/records/start_outcome.hpp"
 
 namespace coseg {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "solvers/partition/cluster_sums.hpp"
+#include "solvers/choice/cluster_sums.hpp"
 #include "solvers/partition/part_confidence.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -94,20 +94,17 @@ CorrectedPartition corrected_partition(const Comm& comm, const PartitionObjectiv
 CorrectedParts::CorrectedParts(const Comm& comm, const CutInput& input, const CutOptions& options,
                                const std::vector<double>& confidence)
     : weights_(options.examples) {
-    CutGraphs cut = cut_graphs(comm, input, options);
-    terms_ = std::move(cut.terms);
+    cut_ = prepared_cut(comm, input, options);
     agree(comm, [&] {
         if (input.features == nullptr)
             throw Error(ExitCode::internal, "corrected parts need the features of all patches");
         regression_.emplace(
-            PatchLooks{*input.features, input.positions, terms_.frame, input.patch_area, input.mesh_of},
-            cut.neighbors, confidence);
+            PatchLooks{*input.features, input.positions, cut_.terms.frame, input.patch_area, input.mesh_of},
+            cut_.neighbors, confidence);
     });
-    objective_ =
-        partition_objective(comm,
-                            {cut.neighbors, cut.overlaps, input.descriptors, input.mesh_of, input.patch_area,
-                             cut.links_count ? std::optional(terms_.base.view()) : std::nullopt},
-                            options.choice);
+    objective_ = partition_objective(comm, cut_.evidence(input), options.choice);
+    cut_.neighbors = {};
+    cut_.overlaps = {};
 }
 
 }  // namespace coseg

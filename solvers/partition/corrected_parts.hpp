@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "solvers/partition/cut_graphs.hpp"
+#include "solvers/partition/cut_input.hpp"
 #include "solvers/partition/labelled_parts.hpp"
 #include "solvers/partition/part_regression.hpp"
-#include "solvers/partition/patch_partition.hpp"
+#include "solvers/partition/prepared_cut.hpp"
 
 namespace coseg {
 
@@ -50,7 +50,7 @@ class CorrectedParts {
     [[nodiscard]] const PartitionObjective& objective() const noexcept { return objective_; }
 
   private:
-    GraphTerms terms_;
+    PreparedCut cut_;  ///< what the objective looks at; without relations, which nothing looks at any more
     std::optional<PartRegression> regression_;
     PartitionObjective objective_;
     ExampleWeights weights_;

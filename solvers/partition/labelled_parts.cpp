@@ -3,7 +3,7 @@
 #include <numeric>
 #include <utility>
 
-#include "solvers/partition/cluster_sums.hpp"
+#include "solvers/choice/cluster_sums.hpp"
 #include "src/base/index.hpp"
 #include "src/metrics/assignment.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "solvers/partition/part_expansion.hpp"
+#include "solvers/choice/part_expansion.hpp"
 
 namespace coseg {
 

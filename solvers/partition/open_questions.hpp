@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solvers/partition/partition_objective.hpp"
+#include "solvers/choice/partition_objective.hpp"
 
 namespace coseg {
 

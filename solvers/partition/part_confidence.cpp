@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "solvers/partition/part_gains.hpp"
+#include "solvers/choice/part_gains.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "solvers/partition/part_expansion.hpp"
-#include "solvers/partition/partition_objective.hpp"
+#include "solvers/choice/part_expansion.hpp"
+#include "solvers/choice/partition_objective.hpp"
 
 namespace coseg {
 

@@ -1,16 +1,15 @@
 #include "solvers/partition/part_count.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
-#include "solvers/partition/cluster_merging.hpp"
-#include "solvers/partition/part_shares.hpp"
+#include "solvers/choice/cluster_merging.hpp"
+#include "solvers/choice/part_shares.hpp"
+#include "solvers/choice/patch_moves.hpp"
 #include "solvers/partition/partition_agreement.hpp"
-#include "solvers/partition/patch_moves.hpp"
+#include "solvers/partition/prepared_cut.hpp"
 #include "solvers/partition/start_clusterings.hpp"
 #include "src/base/index.hpp"
 #include "src/base/text.hpp"
@@ -164,17 +163,13 @@ CountedParts counted_parts(const Comm& comm, const CountTask& task,
     return result;
 }
 
-std::string decimals(const char* format, double value) {
-    std::array<char, 32> text{};
-    const int length = std::snprintf(text.data(), text.size(), format, value);
-    return {text.data(), at(length)};
-}
+std::string signed_decimal(double value) { return (value < 0.0 ? "" : "+") + decimal(value, 1); }
 
 /// Why `other` comes after `chosen`.
 std::string reason(const PartCountFigures& chosen, const PartCountFigures& other) {
-    return std::to_string(other.parts) + " (behind by " + decimals("%.2f", chosen.merit - other.merit) +
-           ": score " + decimals("%+.1f", other.score - chosen.score) + ", starts agree to " +
-           decimals("%.2f", other.agreement) + ", smallest part " + percent(other.least_share, 1) +
+    return std::to_string(other.parts) + " (behind by " + decimal(chosen.merit - other.merit, 2) +
+           ": score " + signed_decimal(other.score - chosen.score) + ", starts agree to " +
+           decimal(other.agreement, 2) + ", smallest part " + percent(other.least_share, 1) +
            " of the area, rarest in " + percent(other.rarest, 0) + " of the shapes)";
 }
 
@@ -183,17 +178,13 @@ std::string reason(const PartCountFigures& chosen, const PartCountFigures& other
 CountedParts count_parts(const Comm& comm, const CutInput& input, CutOptions options) {
     options.parts = least_part_count;
     options.starts = counting_starts(options.starts);
-    const auto [neighbors, overlaps, terms, one_rank, links_count] = cut_graphs(comm, input, options);
-    const GraphInput graphs{neighbors, overlaps, input.mesh_of, input.positions};
-    const PartitionEvidence evidence{
-        neighbors,     overlaps,         input.descriptors,
-        input.mesh_of, input.patch_area, links_count ? std::optional(terms.base.view()) : std::nullopt};
+    const PreparedCut cut = prepared_cut(comm, input, options);
+    const PartitionEvidence evidence = cut.evidence(input);
     const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
     const CountTask task{evidence, objective, options.choice};
     std::vector<CountedPartition> mine;
-    for (const PartitionCandidate& clustering : start_clusterings(
-             comm, {graphs, terms, options.starts, options.spectral, options.drop_below, options.parts},
-             one_rank)) {
+    for (const PartitionCandidate& clustering :
+         start_clusterings(comm, cut.clustering(input, options, options.starts), cut.one_rank)) {
         for (CountedPartition& merged : merged_into_all_numbers(task, clustering))
             mine.push_back(std::move(merged));
     }
@@ -207,9 +198,8 @@ bool is_clear(const std::vector<PartCountFigures>& by_merit) {
 std::string part_count_sentence(const std::vector<PartCountFigures>& by_merit) {
     const PartCountFigures& chosen = by_merit.front();
     std::string text = with_unit(chosen.parts, "part", "parts") + " (starts agree to " +
-                       decimals("%.2f", chosen.agreement) + ", smallest part " +
-                       percent(chosen.least_share, 1) + " of the area, rarest in " +
-                       percent(chosen.rarest, 0) + " of the shapes)";
+                       decimal(chosen.agreement, 2) + ", smallest part " + percent(chosen.least_share, 1) +
+                       " of the area, rarest in " + percent(chosen.rarest, 0) + " of the shapes)";
     if (by_merit.size() > 1) text += "; next are " + reason(chosen, by_merit[1]);
     if (by_merit.size() > 2) text += " and " + reason(chosen, by_merit[2]);
     if (!is_clear(by_merit))

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "solvers/partition/cut_input.hpp"
 #include "solvers/partition/nested_levels.hpp"
-#include "solvers/partition/patch_partition.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/records/part_count.hpp"
 

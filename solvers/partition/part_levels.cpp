@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "solvers/choice/part_shares.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
@@ -121,6 +122,14 @@ std::vector<int> final_numbers(const std::vector<PieceUnion>& unions, int pieces
     return number;
 }
 
+/// The labels of pieces that have the labels of their patches.
+std::vector<int> labels_of_pieces(const std::vector<int>& piece_of_patch, int pieces,
+                                  const std::vector<int>& label_of_patch) {
+    std::vector<int> labels(at(pieces), 0);
+    for (std::size_t i = 0; i < piece_of_patch.size(); ++i) labels[at(piece_of_patch[i])] = label_of_patch[i];
+    return labels;
+}
+
 }  // namespace
 
 PartTree part_tree(ClusterSums clusters, const std::vector<int>& part_of_cluster, int finest,
@@ -144,6 +153,24 @@ PartTree part_tree(ClusterSums clusters, const std::vector<int>& part_of_cluster
     const std::vector<int> number = final_numbers(tree.unions, pieces, parts);
     for (int& piece : tree.piece_of_patch) piece = number[at(piece)];
     for (PieceUnion& u : tree.unions) u = {number[at(u.kept)], number[at(u.taken)], u.loss};
+    return tree;
+}
+
+PartTree part_tree_of_patches(const PartitionObjective& objective, const std::vector<int>& part_of_patch,
+                              const std::vector<int>& cluster_of_patch, PartitionsByNumber levels,
+                              int finest) {
+    const std::vector<int>& finest_known = levels.empty() ? part_of_patch : levels.back();
+    const int known = 1 + *std::max_element(finest_known.begin(), finest_known.end());
+    std::vector<int> pieces;
+    for (std::size_t i = 0; i < part_of_patch.size(); ++i)
+        pieces.push_back(cluster_of_patch[i] * known + finest_known[i]);
+    pieces = renumbered(pieces);
+    const int count = 1 + *std::max_element(pieces.begin(), pieces.end());
+    const std::vector<int> part_of_piece = labels_of_pieces(pieces, count, part_of_patch);
+    for (std::vector<int>& level : levels) level = labels_of_pieces(pieces, count, level);
+    PartTree tree = part_tree(cluster_sums(objective, pieces, count), part_of_piece, finest, levels);
+    for (int& piece : pieces) piece = tree.piece_of_patch[at(piece)];
+    tree.piece_of_patch = std::move(pieces);
     return tree;
 }
 

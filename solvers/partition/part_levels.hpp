@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "solvers/partition/cluster_sums.hpp"
+#include "solvers/choice/cluster_sums.hpp"
+#include "solvers/choice/partition_objective.hpp"
 #include "solvers/partition/nested_levels.hpp"
 #include "src/records/part_tree.hpp"
 

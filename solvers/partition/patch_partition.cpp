@@ -1,22 +1,17 @@
 #include "solvers/partition/patch_partition.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <utility>
 
-#include "solvers/partition/cluster_sums.hpp"
-#include "solvers/partition/corrected_parts.hpp"
-#include "solvers/partition/cut_graphs.hpp"
-#include "solvers/partition/labelled_parts.hpp"
-#include "solvers/partition/part_confidence.hpp"
+#include "solvers/choice/part_shares.hpp"
+#include "solvers/choice/partition_objective.hpp"
+#include "solvers/partition/found_partition.hpp"
 #include "solvers/partition/part_levels.hpp"
-#include "solvers/partition/part_regression.hpp"
 #include "solvers/partition/part_scores.hpp"
-#include "solvers/partition/part_shares.hpp"
-#include "solvers/partition/partition_search.hpp"
+#include "solvers/partition/partition_by_examples.hpp"
+#include "solvers/partition/prepared_cut.hpp"
 #include "solvers/partition/start_clusterings.hpp"
-#include "solvers/partition/start_screening.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -50,102 +45,6 @@ void refuse_bad_request(const Comm& comm, const CutInput& input, const CutOption
     });
 }
 
-/// All candidates, and the number of the one that is taken.
-struct Found {
-    std::vector<PartitionCandidate> candidates;
-    std::size_t chosen = 0;
-    std::vector<double> confidence;  ///< see CutResult
-};
-
-/// Collective.
-Found found_by_search(const Comm& comm, const SearchTask& task, std::vector<PartitionCandidate> clusterings) {
-    Found found;
-    found.candidates = search_partitions(comm, task, std::move(clusterings));
-    found.chosen = ranked_candidates(found.candidates).front();
-    return found;
-}
-
-/// Where there are several starts, the best partition is improved. Collective.
-Found found_and_expanded(const Comm& comm, const SearchTask& task, const CutOptions& options,
-                         std::vector<PartitionCandidate> clusterings) {
-    Found found = found_by_search(comm, task, std::move(clusterings));
-    PartitionCandidate& chosen = found.candidates[found.chosen];
-    if (options.starts.size() > 1) {
-        chosen = expanded(comm, task, std::move(chosen));
-        found.confidence = part_confidence(task.objective, {}, chosen.labels, task.parts);
-    }
-    return found;
-}
-
-/// Collective.
-Found found_alone(const Comm& comm, const PartitionEvidence& evidence, const CutOptions& options,
-                  std::vector<PartitionCandidate> clusterings) {
-    const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
-    return found_and_expanded(comm, {evidence, objective, options.choice, options.parts}, options,
-                              std::move(clusterings));
-}
-
-/// The scores of the examples as a descriptor that a partition should explain, beside the others. The scores
-/// must outlive the result.
-std::vector<ChoiceDescriptor> with_scores(std::span<const ChoiceDescriptor> descriptors,
-                                          const Eigen::MatrixXf& scores, double weight) {
-    std::vector<ChoiceDescriptor> all(descriptors.begin(), descriptors.end());
-    all.push_back({patch_columns(scores), {.pooled = weight, .per_mesh = weight}});
-    return all;
-}
-
-/// The partitions that explain the scores of the examples too. Collective.
-Found found_explaining(const Comm& comm, const PartitionEvidence& evidence, const Eigen::MatrixXd& scores,
-                       const CutOptions& options, std::vector<PartitionCandidate> clusterings) {
-    const Eigen::MatrixXf single = scores.cast<float>();
-    const std::vector<ChoiceDescriptor> descriptors =
-        with_scores(evidence.descriptors, single, options.examples.explained);
-    PartitionEvidence sought = evidence;
-    sought.descriptors = descriptors;
-    const PartitionObjective objective = partition_objective(comm, sought, options.choice);
-    return found_by_search(comm, {sought, objective, options.choice, options.parts}, std::move(clusterings));
-}
-
-/// The evidence of the cut, and the frame of its positions.
-struct PlacedEvidence {
-    const PartitionEvidence& evidence;
-    const PositionFrame& frame;
-};
-
-/// From the partition without examples, the one that explains their scores, or the labels with the best
-/// scores, whichever suits the examples best, to labels that follow them. Collective.
-Found found_by_examples(const Comm& comm, const CutInput& input, const PlacedEvidence& placed,
-                        const CutOptions& options, std::vector<PartitionCandidate> clusterings) {
-    const PartitionEvidence& evidence = placed.evidence;
-    std::optional<PartRegression> regression;
-    SaidParts said{{}, input.examples->area, {}};
-    Eigen::MatrixXd told;  // the scores by the examples alone
-    agree(comm, [&] {
-        regression.emplace(
-            PatchLooks{*input.features, input.positions, placed.frame, input.patch_area, input.mesh_of},
-            evidence.neighbors, std::vector<double>{});
-        told = regression->scores(said);
-    });
-    std::vector<int> best_labels = labels_of_best_scores(told);
-    Found explaining = found_explaining(comm, evidence, told, options, clusterings);
-    const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
-    const SearchTask task{evidence, objective, options.choice, options.parts};
-    Found alone = found_and_expanded(comm, task, options, std::move(clusterings));
-    BaseChoice base(objective, *input.examples, std::move(told), options.examples.scores);
-    base.offer_parts(alone.candidates[alone.chosen].labels);
-    Found& found = base.offer_parts(explaining.candidates[explaining.chosen].labels) ? explaining : alone;
-    base.offer(std::move(best_labels));
-    said.base = base.labels();
-    said.allowed = Eigen::MatrixXi::Ones(options.parts, objective.meshes);
-    Eigen::MatrixXd scores;
-    agree(comm, [&] { scores = regression->scores(said); });
-    CorrectedPartition corrected = corrected_partition(comm, objective, said, scores, options.examples);
-    PartitionCandidate& chosen = found.candidates[found.chosen];
-    chosen = relabelled(task, std::move(chosen), std::move(corrected.parts));
-    found.confidence = std::move(corrected.confidence);
-    return std::move(found);
-}
-
 std::vector<int> count_meshes(const std::vector<int>& part_of_patch, const std::vector<int>& mesh_of,
                               int parts) {
     std::vector<std::vector<int>> meshes(at(parts));
@@ -165,38 +64,24 @@ bool has_all_parts(const CutResult& result) {
                         [](double share) { return share <= 0.0; });
 }
 
-/// The labels of pieces that have the labels of their patches.
-std::vector<int> labels_of_pieces(const std::vector<int>& piece_of_patch, int pieces,
-                                  const std::vector<int>& label_of_patch) {
-    std::vector<int> labels(at(pieces), 0);
-    for (std::size_t i = 0; i < piece_of_patch.size(); ++i) labels[at(piece_of_patch[i])] = label_of_patch[i];
-    return labels;
+/// The tree over the pieces in which clusters of patches in the chosen graph and the parts of the finest
+/// known level divide each other. Collective.
+PartTree tree_of(const Comm& comm, const CutInput& input, const CutOptions& options, const PreparedCut& cut,
+                 const CutResult& result) {
+    const std::vector<CutStart> fine = {
+        {result.starts[at(result.chosen)].start.graph, std::max(options.finest_level, options.parts)}};
+    const std::vector<int> cluster_of_patch =
+        all_gather_records(comm, start_clusterings(comm, cut.clustering(input, options, fine), cut.one_rank))
+            .front()
+            .labels;
+    return part_tree_of_patches(
+        partition_objective(comm, cut.evidence(input), options.choice), result.part_of_patch,
+        cluster_of_patch,
+        nested_levels(result.part_of_patch, options.parts, options.guides, input.patch_area),
+        options.finest_level);
 }
 
-/// The tree over the pieces in which clusters of patches and the parts of the finest known level divide each
-/// other. Collective.
-PartTree tree_of(const Comm& comm, const PartitionEvidence& evidence, const CutOptions& options,
-                 const std::vector<int>& part_of_patch, const std::vector<int>& cluster_of_patch) {
-    PartitionsByNumber levels =
-        nested_levels(part_of_patch, options.parts, options.guides, evidence.patch_area);
-    const std::vector<int>& finest_known = levels.empty() ? part_of_patch : levels.back();
-    const int known = 1 + *std::max_element(finest_known.begin(), finest_known.end());
-    std::vector<int> pieces;
-    for (std::size_t i = 0; i < part_of_patch.size(); ++i)
-        pieces.push_back(cluster_of_patch[i] * known + finest_known[i]);
-    pieces = renumbered(pieces);
-    const int count = 1 + *std::max_element(pieces.begin(), pieces.end());
-    const std::vector<int> part_of_piece = labels_of_pieces(pieces, count, part_of_patch);
-    for (std::vector<int>& level : levels) level = labels_of_pieces(pieces, count, level);
-    const PartitionObjective objective = partition_objective(comm, evidence, options.choice);
-    PartTree tree =
-        part_tree(cluster_sums(objective, pieces, count), part_of_piece, options.finest_level, levels);
-    for (int& piece : pieces) piece = tree.piece_of_patch[at(piece)];
-    tree.piece_of_patch = std::move(pieces);
-    return tree;
-}
-
-CutResult described(const CutInput& input, int parts, const PositionFrame& frame, Found found) {
+CutResult described(const CutInput& input, int parts, const PositionFrame& frame, FoundPartition found) {
     CutResult result;
     PartitionCandidate& chosen = found.candidates[found.chosen];
     result.chosen = static_cast<int>(found.chosen);
@@ -236,24 +121,6 @@ void describe_parts(const std::vector<int>& mesh_of, const std::vector<double>& 
     result.meshes_with_part = count_meshes(result.part_of_patch, mesh_of, parts);
 }
 
-CutGraphs cut_graphs(const Comm& comm, const CutInput& input, const CutOptions& options) {
-    // At most: an entry and its transpose may fall together, never apart.
-    const std::int64_t entries = 2 * all_sum(comm, static_cast<std::int64_t>(input.coefficients.rows.size()));
-    const auto patches = static_cast<int>(input.mesh_of.size());
-    CutGraphs cut;
-    cut.one_rank = entries <= options.one_rank_entries;
-    cut.links_count = cut.one_rank && options.choice.links > 0.0;
-    cut.neighbors = gather_patch_pairs(comm, input.neighbors_local, patches);
-    cut.overlaps = gather_patch_pairs(comm, input.overlaps_local, patches);
-    const GraphOptions graphs{.form = options.form,
-                              .minima_rule = options.minima_rule,
-                              .placed = asks_for_positions(options.starts),
-                              .complete = cut.one_rank};
-    cut.terms = graph_terms(comm, base_affinity(comm, input.coefficients, cut.neighbors, graphs),
-                            {cut.neighbors, cut.overlaps, input.mesh_of, input.positions}, graphs);
-    return cut;
-}
-
 CutResult described_partition(const std::vector<int>& labels, int parts, const std::vector<int>& mesh_of,
                               const std::vector<double>& patch_area) {
     CutResult result;
@@ -270,35 +137,24 @@ CutResult partition_patches(const Comm& comm, const CutInput& input, const CutOp
         describe_parts(input.mesh_of, input.patch_area, 1, result);
         return result;
     }
-    const auto [neighbors, overlaps, terms, one_rank, links_count] = cut_graphs(comm, input, options);
-    const GraphInput graphs{neighbors, overlaps, input.mesh_of, input.positions};
-    const PartitionEvidence evidence{
-        neighbors,     overlaps,         input.descriptors,
-        input.mesh_of, input.patch_area, links_count ? std::optional(terms.base.view()) : std::nullopt};
-    const ClusteringTask all_starts{graphs,       terms, options.starts, options.spectral, options.drop_below,
-                                    options.parts};
-    const std::vector<CutStart> starts =
-        promising_starts(comm, all_starts, evidence, options.choice, options.screening);
-    const ClusteringTask clustering{graphs,       terms, starts, options.spectral, options.drop_below,
-                                    options.parts};
-    std::vector<PartitionCandidate> clusters = start_clusterings(comm, clustering, one_rank);
-    Found found = input.examples == nullptr
-                      ? found_alone(comm, evidence, options, std::move(clusters))
-                      : found_by_examples(comm, input, {evidence, terms.frame}, options, std::move(clusters));
-    CutResult result = described(input, options.parts, terms.frame, std::move(found));
+    const PreparedCut cut = prepared_cut(comm, input, options);
+    const PartitionEvidence evidence = cut.evidence(input);
+    const std::vector<CutStart> starts = promising_starts(
+        comm, cut.clustering(input, options, options.starts), evidence, options.choice, options.screening);
+    std::vector<PartitionCandidate> clusters =
+        start_clusterings(comm, cut.clustering(input, options, starts), cut.one_rank);
+    FoundPartition found =
+        input.examples == nullptr
+            ? found_alone(comm, evidence, options, std::move(clusters))
+            : found_by_examples(comm, input, {evidence, cut.terms.frame}, options, std::move(clusters));
+    CutResult result = described(input, options.parts, cut.terms.frame, std::move(found));
     result.starts_left_out = static_cast<int>(options.starts.size() - starts.size());
     if (options.starts.size() > 1 && input.features != nullptr && !input.features->empty())
         result.scores = part_scores(
-            comm, {*input.features, input.positions, terms.frame, input.patch_area, input.mesh_of},
+            comm, {*input.features, input.positions, cut.terms.frame, input.patch_area, input.mesh_of},
             result.part_of_patch, options.parts);
-    if (options.finest_level > 0 && has_all_parts(result)) {
-        const std::vector<CutStart> fine = {
-            {result.starts[at(result.chosen)].start.graph, std::max(options.finest_level, options.parts)}};
-        const ClusteringTask finer{graphs, terms, fine, options.spectral, options.drop_below, options.parts};
-        result.tree =
-            tree_of(comm, evidence, options, result.part_of_patch,
-                    all_gather_records(comm, start_clusterings(comm, finer, one_rank)).front().labels);
-    }
+    if (options.finest_level > 0 && has_all_parts(result))
+        result.tree = tree_of(comm, input, options, cut, result);
     return result;
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "solvers/affinity/graph_components.hpp"
-#include "solvers/partition/part_shares.hpp"
+#include "solvers/choice/part_shares.hpp"
 #include "solvers/spectral/normalized_cut.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/shared_counter.hpp"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "solvers/choice/partition_search.hpp"
 #include "solvers/partition/cut_graphs.hpp"
-#include "solvers/partition/partition_search.hpp"
 #include "solvers/spectral/spectral_embedding.hpp"
 #include "src/parallel/comm.hpp"
 
@@ -12,7 +12,7 @@ namespace coseg {
 
 /// What the cuts of all starts have in common.
 struct ClusteringTask {
-    const GraphInput& graphs;
+    GraphInput graphs;
     const GraphTerms& terms;
     const std::vector<CutStart>& starts;
     const SpectralOptions& spectral;

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
-#include "solvers/partition/partition_objective.hpp"
-#include "solvers/partition/partition_search.hpp"
+#include "solvers/choice/partition_objective.hpp"
+#include "solvers/choice/partition_search.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solvers/partition/partition_terms.hpp"
+#include "solvers/choice/partition_terms.hpp"
 #include "solvers/partition/start_clusterings.hpp"
 #include "src/parallel/comm.hpp"
 

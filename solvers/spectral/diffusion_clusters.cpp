@@ -10,6 +10,7 @@
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
+#include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 

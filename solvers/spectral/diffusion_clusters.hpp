@@ -24,8 +24,8 @@ struct DiffusionOptions {
 /// over all pairs. Patches are mapped to the diffusion coordinates lambda^t psi of the K leading nontrivial
 /// eigenvectors of the row-normalised affinity (Coifman, Lafon 2006), and k-means clusters them there.
 /// Neither adjacency nor the mesh of a patch matters. features: H matrices d_h x N, the same on all ranks.
-/// Every rank does the same work, so that all have the same labels. Collective. Throws AgreedError: usage
-/// (more than `most` patches, fewer patches than parts), not_converged.
+/// The root does the work, and all ranks have its labels. Collective. Throws AgreedError: usage (more than
+/// `most` patches, fewer patches than parts), not_converged.
 ///
 /// Source: Sidi, van Kaick, Kleiman, Zhang, Cohen-Or 2011.
 ///

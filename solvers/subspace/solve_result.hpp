@@ -35,8 +35,8 @@ struct SolveOptions {
     int max_iterations = 200000;  ///< of the inner method; mesh scope: per column
     double max_seconds = 3600.0;  ///< wall time
     SolverChoice solver = SolverChoice::automatic;
-    /// Mesh scope: called after every tile with the number of this rank's columns, solved and in all. May be
-    /// empty.
+    /// Called while the solve is at work: in mesh scope after every tile, with the number of this rank's
+    /// columns, solved and in all; in row scope now and then, with 0 of 1. May be empty.
     std::function<void(std::int64_t, std::int64_t)> progress = {};
     SolverCheckpoint* checkpoint = nullptr;  ///< keeps finished tiles or the iterate; none by default
     PairScorerFactory pair_scorer = processor_pair_scorer;  ///< computes the scores of the passes over pairs

@@ -15,6 +15,7 @@ bool StoppingRule::certify(double objective, double lower_bound) {
 }
 
 bool StoppingRule::limit_reached(int iterations, double kkt_residual) {
+    if (options_.progress) options_.progress(0, 1);
     if (kkt_residual <= smallest_residual) {
         limit_ = StopReason::residual_reached;
         return true;

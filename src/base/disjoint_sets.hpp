@@ -10,8 +10,8 @@
 
 namespace coseg {
 
-/// The numbers 0 .. size - 1, at first each a set of its own. A set is known by its lowest number, whatever the
-/// order in which it was joined.
+/// The numbers 0 .. size - 1, at first each a set of its own. A set is known by its lowest number, whatever
+/// the order in which it was joined.
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t size) : below_(size) { std::iota(below_.begin(), below_.end(), 0); }

@@ -20,7 +20,8 @@ std::string percent(double share, int digits);
 /// A number and what it counts: "1 shape", "20 shapes".
 std::string with_unit(std::int64_t count, const std::string& one, const std::string& many);
 
-/// The whole number that all of a text is: digits, and "-" before them. Nothing where it is none or does not fit.
+/// The whole number that all of a text is: digits, and "-" before them. Nothing where it is none or does not
+/// fit.
 std::optional<int> whole_number(std::string_view text);
 
 /// `text` with the characters escaped that XML and HTML would misread, between tags or inside an attribute's

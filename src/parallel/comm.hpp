@@ -46,13 +46,13 @@ class Comm {
     int size_ = 1;
 };
 
-/// Whether a destructor may free what the `ranks` of a communicator own together. Freeing is collective, and a
-/// rank that unwinds alone must not begin it: the others would wait for it.
+/// Whether a destructor may free what the `ranks` of a communicator own together. Freeing is collective, and
+/// a rank that unwinds alone must not begin it: the others would wait for it.
 bool may_free_together(int ranks) noexcept;
 
 /// Runs `step` on this rank. If it throws on any rank, all ranks throw the same AgreedError, that of the
-/// lowest failing rank. `step` must not make a collective call; it may draw numbers from
-/// a SharedCounter. Collective.
+/// lowest failing rank. `step` must not make a collective call; it may draw numbers from a SharedCounter.
+/// Collective.
 void agree(const Comm& comm, const std::function<void()>& step);
 
 /// MPI 3 counts the values of a message in int; what is longer goes in several messages.

@@ -46,8 +46,8 @@ class StageLog {
     /// Ends this rank's own work in the stage. The time from here until end() is waiting. Not collective.
     void end_of_own_work();
 
-    /// Adds to the time that this rank has spent on a step of the stage. Not collective, but every rank must name the
-    /// same steps in the same order before end().
+    /// Adds to the time that this rank has spent on a step of the stage. Not collective, but every rank must
+    /// name the same steps in the same order before end().
     void step(const std::string& name, double seconds);
 
     /// From here on the spans of this rank are kept for trace(). Their starts are counted from the moment at

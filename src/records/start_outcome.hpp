@@ -1,6 +1,6 @@
 #pragma once
 // A start of the cut, the terms that speak for the partition that it gave, and their weights. A new term of
-// the choice is added here and where it is computed (solvers/partition/partition_terms.cpp), and nowhere
+// the choice is added here and where it is computed (solvers/choice/partition_terms.cpp), and nowhere
 // else.
 
 #include <tuple>
@@ -26,7 +26,7 @@ struct GraphWeights {
 };
 
 /// One attempt: the graph is cut into `clusters`, and these are merged into the parts
-/// (solvers/partition/cluster_merging.hpp).
+/// (solvers/choice/cluster_merging.hpp).
 struct CutStart {
     GraphWeights graph;
     int clusters = 2;

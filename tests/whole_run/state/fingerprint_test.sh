@@ -45,7 +45,7 @@ more io/mesh_files/mesh_reader.cpp
 changes "the reader of meshes" descriptions features
 more src/histograms/histogram.hpp
 changes "a header of the histograms" features
-more solvers/partition/partition_terms.cpp
+more solvers/choice/partition_terms.cpp
 changes "the choice of the partition" cuts
 more src/records/start_outcome.hpp
 changes "the record of a start" cuts

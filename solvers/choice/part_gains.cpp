@@ -1,4 +1,4 @@
-#include "solvers/partition/part_gains.hpp"
+#include "solvers/choice/part_gains.hpp"
 
 #include "src/base/index.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/partition/partition_terms.hpp"
+#include "solvers/choice/partition_terms.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/block_range.hpp"
 #include "src/parallel/comm.hpp"

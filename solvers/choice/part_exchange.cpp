@@ -1,4 +1,4 @@
-#include "solvers/partition/part_exchange.hpp"
+#include "solvers/choice/part_exchange.hpp"
 
 #include <Eigen/Core>
 #include <utility>

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solvers/partition/partition_objective.hpp"
+#include "solvers/choice/partition_objective.hpp"
 #include "src/parallel/block_range.hpp"
 
 namespace coseg {

@@ -1,4 +1,4 @@
-#include "solvers/partition/part_expansion.hpp"
+#include "solvers/choice/part_expansion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "solvers/boundaries/minimum_cut.hpp"
-#include "solvers/partition/part_gains.hpp"
+#include "solvers/choice/part_gains.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/block_range.hpp"
 

@@ -1,4 +1,4 @@
-#include "solvers/partition/partition_objective.hpp"
+#include "solvers/choice/partition_objective.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "solvers/partition/partition_objective.hpp"
+#include "solvers/choice/partition_objective.hpp"
 #include "src/parallel/comm.hpp"
 
 namespace coseg {

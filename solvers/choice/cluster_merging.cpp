@@ -1,4 +1,4 @@
-#include "solvers/partition/cluster_merging.hpp"
+#include "solvers/choice/cluster_merging.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "solvers/partition/part_shares.hpp"
+#include "solvers/choice/part_shares.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {

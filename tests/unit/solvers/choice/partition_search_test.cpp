@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 
-#include "solvers/partition/cluster_merging.hpp"
-#include "solvers/partition/part_exchange.hpp"
-#include "solvers/partition/patch_moves.hpp"
+#include "solvers/choice/cluster_merging.hpp"
+#include "solvers/choice/part_exchange.hpp"
+#include "solvers/choice/patch_moves.hpp"
 #include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 

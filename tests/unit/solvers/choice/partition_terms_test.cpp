@@ -1,4 +1,4 @@
-#include "solvers/partition/partition_terms.hpp"
+#include "solvers/choice/partition_terms.hpp"
 
 #include <gtest/gtest.h>
 

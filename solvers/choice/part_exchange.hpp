@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "solvers/partition/partition_objective.hpp"
+#include "solvers/choice/partition_objective.hpp"
 
 namespace coseg {
 

@@ -1,6 +1,6 @@
 // Expansions against the best of all labellings, and against the score that they are to raise.
 
-#include "solvers/partition/part_expansion.hpp"
+#include "solvers/choice/part_expansion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "solvers/partition/partition_objective.hpp"
+#include "solvers/choice/partition_objective.hpp"
 
 namespace coseg {
 

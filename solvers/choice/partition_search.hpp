@@ -4,8 +4,8 @@
 #include <tuple>
 #include <vector>
 
-#include "solvers/partition/part_expansion.hpp"
-#include "solvers/partition/partition_objective.hpp"
+#include "solvers/choice/part_expansion.hpp"
+#include "solvers/choice/partition_objective.hpp"
 #include "src/parallel/comm.hpp"
 #include "src/records/start_outcome.hpp"
 

@@ -1,4 +1,4 @@
-#include "solvers/partition/part_shares.hpp"
+#include "solvers/choice/part_shares.hpp"
 
 #include <gtest/gtest.h>
 

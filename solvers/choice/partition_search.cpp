@@ -1,4 +1,4 @@
-#include "solvers/partition/partition_search.hpp"
+#include "solvers/choice/partition_search.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "solvers/partition/cluster_merging.hpp"
-#include "solvers/partition/part_exchange.hpp"
-#include "solvers/partition/part_shares.hpp"
-#include "solvers/partition/patch_moves.hpp"
+#include "solvers/choice/cluster_merging.hpp"
+#include "solvers/choice/part_exchange.hpp"
+#include "solvers/choice/part_shares.hpp"
+#include "solvers/choice/patch_moves.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
 

@@ -1,4 +1,4 @@
-#include "solvers/partition/patch_moves.hpp"
+#include "solvers/choice/patch_moves.hpp"
 
 #include <Eigen/Core>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "solvers/partition/cluster_sums.hpp"
+#include "solvers/choice/cluster_sums.hpp"
 
 #include <array>
 

@@ -1,8 +1,8 @@
-#include "solvers/partition/partition_terms.hpp"
+#include "solvers/choice/partition_terms.hpp"
 
 #include <algorithm>
 
-#include "solvers/partition/part_shares.hpp"
+#include "solvers/choice/part_shares.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {

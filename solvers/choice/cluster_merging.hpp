@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solvers/partition/cluster_sums.hpp"
+#include "solvers/choice/cluster_sums.hpp"
 
 namespace coseg {
 
