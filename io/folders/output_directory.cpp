@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "io/files/atomic_file.hpp"
+#include "io/files/file_contents.hpp"
 #include "io/folders/absolute_folder.hpp"
 #include "src/base/error.hpp"
 
@@ -32,10 +33,15 @@ struct OwnFolder {
 constexpr std::array<OwnFolder, 3> own_folders{{{"labels", ".seg"}, {"patches", ".seg"}, {"ply", ".ply"}}};
 // Not every run has these; those of an earlier run show what is no longer there.
 constexpr OwnFolder picture_pages{"sheets", ".png"};
-constexpr std::array<const char*, 7> picture_files{"contact_sheet", "affinity.png", "alignment.json",
-                                                   "report.html",   "profile.txt",
-                                                   "trace.json",  // what their names begin with
-                                                   "model.h5"};
+constexpr std::array<std::string_view, 8> further_files{"affinity.png", "alignment.json", "report.html",
+                                                        "profile.txt",  "trace.json",     "model.h5",
+                                                        "names.txt",    "features.h5"};
+
+/// Whether not every run writes a file of this name, in DIR itself: those above, and a picture of every kind.
+bool is_further_file(const std::string& name) {
+    return std::find(further_files.begin(), further_files.end(), name) != further_files.end() ||
+           (name.starts_with("contact_sheet") && name.ends_with(".png"));
+}
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, const std::error_code& cause) {
     throw Error(ExitCode::output, path.string() + ": " + what + " (" + cause.message() + ")");
@@ -52,6 +58,7 @@ std::string absolute_directory(const std::string& directory) {
 }
 
 constexpr const char* partial_mark = ".partial-";
+constexpr const char* corrections_name = "corrections.json";
 
 /// What a killed run left in a folder does not count.
 bool is_empty_or_missing(const fs::path& path) {
@@ -160,13 +167,11 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
     return entries;
 }
 
-void remove_stale_pictures(const fs::path& old, const fs::path& fresh) {
+void remove_stale_files(const fs::path& old, const fs::path& fresh) {
     for (const fs::path& path : entries_of(old)) {
         const std::string name = path.filename().string();
-        const bool is_picture = std::any_of(picture_files.begin(), picture_files.end(),
-                                            [&](const char* begin) { return name.starts_with(begin); });
         std::error_code cause;
-        if (!is_picture || fs::exists(fresh / name, cause)) continue;
+        if (!is_further_file(name) || fs::exists(fresh / name, cause)) continue;
         fs::remove(path, cause);
         if (cause) fail(path, "the earlier result cannot be removed", cause);
     }
@@ -184,11 +189,22 @@ void merge_folder(const fs::path& from, const fs::path& to) {
     }
 }
 
-/// Names with which files of a run begin that are no file of a mesh.
+/// Whether a file of a run that is no file of a mesh may have this name.
 bool is_result_file(const std::string& name) {
-    return name.starts_with("report.json") || name.starts_with("features.h5") ||
-           std::any_of(picture_files.begin(), picture_files.end(),
-                       [&](const char* begin) { return name.starts_with(begin); });
+    return name == "report.json" || name == corrections_name || is_further_file(name);
+}
+
+/// The corrections of an earlier run are a person's work: others do not replace them, but get their name.
+void keep_earlier_corrections(const fs::path& old, const fs::path& fresh) {
+    const fs::path earlier = old / corrections_name;
+    std::error_code ignored;
+    if (!fs::is_regular_file(earlier, ignored) || !fs::exists(fresh / corrections_name, ignored) ||
+        read_regular_file(earlier.string()) == read_file((fresh / corrections_name).string()))
+        return;
+    fs::path kept;
+    for (int k = 1; kept.empty() || fs::exists(kept, ignored); ++k)
+        kept = old / ("corrections_" + std::to_string(k) + ".json");
+    move_entry(earlier, kept);
 }
 
 void refuse_folders_for_files(const fs::path& folder, const auto& is_file_of_ours) {
@@ -349,7 +365,8 @@ void OutputDirectory::move_into_existing() const {
     for (const OwnFolder& folder : own_folders) remove_stale(folder, path_, staging_);
     remove_stale(picture_pages, path_, staging_);
     remove_stale_levels(path_, staging_);
-    remove_stale_pictures(path_, staging_);
+    remove_stale_files(path_, staging_);
+    keep_earlier_corrections(path_, staging_);
     merge_folder(staging_, path_);
 }
 

@@ -45,9 +45,11 @@ class OutputDirectory {
     void try_names(const std::vector<std::string>& names, std::uintmax_t input_bytes) const;
 
     /// Gives the results their name. In a folder that is not empty (force), files of the same name are
-    /// replaced. Files of an earlier run that this run did not write are removed: labels and PLY files
-    /// (labels/*.seg, patches/*.seg, ply/*.ply) and pictures (contact_sheet*, sheets/*.png, report.html).
-    /// Everything else stays. Throws Error(output); without force an existing DIR is then untouched.
+    /// replaced; corrections.json gets another name where its content differs. Files of an earlier run that
+    /// this run did not write are removed: labels and PLY files (labels/*.seg, patches/*.seg, ply/*.ply),
+    /// pictures (contact_sheet*.png, sheets/*.png) and the other files that not every run writes (model.h5,
+    /// names.txt, features.h5, ...). Everything else stays. Throws Error(output); without force an existing
+    /// DIR is then untouched.
     void commit();
 
     /// Removes the partial folder unless it has been committed. May be called from another thread.

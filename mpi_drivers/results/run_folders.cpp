@@ -1,5 +1,6 @@
 #include "mpi_drivers/results/run_folders.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -11,8 +12,22 @@ namespace coseg {
 
 namespace {
 
-std::optional<RunState> opened_state(const Comm& comm, const ProcessOptions& process) {
+/// A folder that may hold nothing cannot hold the state either.
+void refuse_state_in_results(const OutputOptions& output, const ProcessOptions& process) {
+    namespace fs = std::filesystem;
+    if (output.folder.empty() || output.force) return;
+    std::error_code ignored;
+    const fs::path results = fs::weakly_canonical(fs::absolute(output.folder), ignored);
+    const fs::path state = fs::weakly_canonical(fs::absolute(process.state), ignored);
+    if (std::mismatch(results.begin(), results.end(), state.begin(), state.end()).first == results.end())
+        throw Error(ExitCode::usage, "--state " + process.state + " lies in the output folder " +
+                                         output.folder + ", which must be empty; name a folder elsewhere");
+}
+
+std::optional<RunState> opened_state(const Comm& comm, const OutputOptions& output,
+                                     const ProcessOptions& process) {
     if (process.state.empty()) return std::nullopt;
+    agree(comm, [&] { refuse_state_in_results(output, process); });
     return std::optional<RunState>(std::in_place, comm, process.state, LockMode::exclusive,
                                    process.checkpoint_seconds);
 }
@@ -67,7 +82,7 @@ void ResultFolder::commit(const Comm& comm) {
 }
 
 RunFolders::RunFolders(const Comm& comm, const OutputOptions& output, const ProcessOptions& process)
-    : state_(opened_state(comm, process)), results_path_(output.folder) {
+    : state_(opened_state(comm, output, process)), results_path_(output.folder) {
     if (!output.folder.empty()) results_.emplace(comm, output.folder, output.force, process.watches_signals);
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "io/data_files/label_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/folders/state_folder.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -161,6 +162,45 @@ TEST(OutputDirectory, ForceReplacesResultsAndNothingElse) {
     EXPECT_EQ(test::content_of(folder.path("out/labels/a.seg")), "7\n");
     EXPECT_EQ(test::content_of(folder.path("out/report.json")), "8\n");
     EXPECT_EQ(tree(folder.path()).count(fs::path(output.staging()).filename().string()), 0U);
+}
+
+TEST(OutputDirectory, ForceTakesFilesOfAnEarlierRunByTheirWholeNames) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder.path("out"));
+    const std::set<std::string> of_run = {"affinity.png", "contact_sheet.png", "contact_sheet_truth.png",
+                                          "features.h5",  "model.h5",          "names.txt",
+                                          "report.html"};
+    const std::set<std::string> of_user = {"contact_sheet.pptx", "labels.txt", "model.h5.backup",
+                                           "profile.txt.old", "report.html.mine"};
+    for (const auto* names : {&of_run, &of_user}) {
+        for (const std::string& name : *names) folder.file("out/" + name, "earlier");
+    }
+    OutputDirectory(folder.path("out"), true).commit();
+    for (const std::string& name : of_run) EXPECT_FALSE(fs::exists(folder.path("out/" + name))) << name;
+    for (const std::string& name : of_user) EXPECT_TRUE(fs::exists(folder.path("out/" + name))) << name;
+}
+
+TEST(OutputDirectory, ForceKeepsTheCorrectionsOfAnEarlierRun) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder.path("out"));
+    const auto run = [&](const std::string& corrections) {
+        OutputDirectory output(folder.path("out"), true);
+        if (!corrections.empty()) write_file(output.staging() + "/corrections.json", corrections);
+        output.commit();
+    };
+    const auto content = [&](const std::string& name) {
+        return test::content_of(folder.path("out/" + name));
+    };
+    folder.file("out/corrections.json", "first");
+    run("");
+    EXPECT_EQ(content("corrections.json"), "first");
+    run("first");
+    EXPECT_FALSE(fs::exists(folder.path("out/corrections_1.json")));
+    run("second");
+    run("third");
+    EXPECT_EQ(content("corrections.json"), "third");
+    EXPECT_EQ(content("corrections_1.json"), "first");
+    EXPECT_EQ(content("corrections_2.json"), "second");
 }
 
 TEST(OutputDirectory, ForceWithoutCommitLeavesTheOldResults) {
