@@ -1,10 +1,15 @@
 #include "mpi_drivers/process/self_launch.hpp"
 
+#include <fcntl.h>
 #include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -71,6 +76,66 @@ void prepare_environment() {
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
 }
 
+/// The process that works in place of this one, and whether its ranks keep a state that they can write.
+volatile pid_t worker = 0;
+volatile bool worker_keeps_state = false;
+
+/// mpirun that is terminated ends with 1 at once, whatever its ranks say. Ranks that keep a state are asked
+/// to write it, by the signal that mpirun hands on to them.
+void hand_on_signal(int signal) {
+    if (worker > 0) ::kill(worker, signal == SIGTERM && worker_keeps_state ? SIGUSR1 : signal);
+}
+
+bool has_state_option(const std::vector<std::string_view>& words) {
+    return std::any_of(words.begin(), words.end(), [](std::string_view word) {
+        return word == "--state" || word.starts_with("--state=");
+    });
+}
+
+/// In the child: becomes the program, and ends with this process whatever ends that. Comes back only where
+/// there is no such program, which the pipe then tells.
+void become(const std::vector<char*>& line, pid_t parent, int failed) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(1);
+    execvp(line.front(), line.data());
+    const char mark = 1;
+    [[maybe_unused]] const ssize_t told = write(failed, &mark, 1);
+    _exit(1);
+}
+
+/// Ends as the worker has ended.
+[[noreturn]] void end_like(int status) {
+    if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
+    std::signal(WTERMSIG(status), SIG_DFL);
+    std::raise(WTERMSIG(status));
+    _exit(128 + WTERMSIG(status));
+}
+
+/// Runs a program in place of this one. A terminal's interrupt reaches both; other signals are handed on.
+/// Returns only where there is no such program.
+void run_instead(const std::vector<char*>& line, bool keeps_state) {
+    std::array<int, 2> failed{};
+    if (pipe2(failed.data(), O_CLOEXEC) != 0) return;
+    worker_keeps_state = keeps_state;
+    const pid_t self = getpid();
+    worker = fork();
+    if (worker == 0) become(line, self, failed[1]);
+    close(failed[1]);
+    if (worker < 0) return;
+    constexpr std::array<int, 4> handed_on{SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
+    for (const int signal : handed_on) std::signal(signal, hand_on_signal);
+    std::signal(SIGINT, SIG_IGN);
+    int status = 0;
+    while (waitpid(worker, &status, 0) < 0 && errno == EINTR) {
+    }
+    char mark = 0;
+    if (read(failed[0], &mark, 1) != 1) end_like(status);
+    close(failed[0]);
+    worker = 0;
+    for (const int signal : handed_on) std::signal(signal, SIG_DFL);
+    std::signal(SIGINT, SIG_DFL);
+}
+
 }  // namespace
 
 bool is_launched() {
@@ -95,7 +160,7 @@ void launch_on_all_cores(int argc, char** argv) {
     for (std::string& word : line) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     prepare_environment();
-    execvp(pointers.front(), pointers.data());  // returns only where there is no mpirun
+    run_instead(pointers, has_state_option(words));
 }
 
 std::string reachable_list(const std::string& argument) {

@@ -127,6 +127,19 @@ ends_on() {
     echo "ok: $signal"
 }
 ends_on USR1 75
+# A run that has started its ranks by itself asks them likewise, as mpirun would only end them.
+"$COSEG" run --ranks 2 "${slow[@]}" --state "$work/state.own" --out "$work/ended" "$work/seven" 2>"$work/err" &
+own=$!
+until compgen -G "$work/state.own/meshes/*/*.h5" >/dev/null; do
+    kill -0 "$own" 2>/dev/null || { cat "$work/err" >&2; fail "the run ended by itself"; }
+    sleep 0.02
+done
+kill -TERM "$own"
+status=0
+wait "$own" || status=$?
+[[ $status -eq 75 ]] || { cat "$work/err" >&2; fail "TERM to a run that has started its ranks: exit code $status, not 75"; }
+grep -q "the same command continues" "$work/err" || fail "TERM: does not say how to go on"
+refuses "a state in the folder of results" 2 "lies in the output folder" "$COSEG" run "${slow[@]}" --state "$work/new/state" --out "$work/new" "$work/seven"
 ends_on RANK any
 rm -rf "$work"/ended.partial-* # a killed run's: the next one into the same folder would have removed it
 
