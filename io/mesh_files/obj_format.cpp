@@ -125,6 +125,14 @@ std::string numbers(const char* keyword, double a, double b, double c,
     return text;
 }
 
+/// A space would make a second group of the rest, and the end of a line a statement.
+std::string as_one_word(std::string name) {
+    for (char& c : name) {
+        if (static_cast<unsigned char>(c) <= ' ') c = '_';
+    }
+    return name;
+}
+
 std::string face_line(const PolygonMesh& mesh, std::size_t face) {
     std::string line = "f";
     for (int k = mesh.offsets[face]; k < mesh.offsets[face + 1]; ++k)
@@ -154,7 +162,7 @@ void write_obj(const std::string& path, const PolygonMesh& mesh, const FaceArray
     const int parts = labels.empty() ? 0 : *std::max_element(labels.begin(), labels.end()) + 1;
     for (int part = 0; part < parts; ++part) {
         if (std::find(labels.begin(), labels.end(), part) == labels.end()) continue;
-        text += "g part_" + std::to_string(part) + "\nusemtl part_" + std::to_string(part) + "\n";
+        text += "g " + as_one_word(part_name(arrays, part)) + "\nusemtl part_" + std::to_string(part) + "\n";
         for (std::size_t f = 0; f < labels.size(); ++f) {
             if (labels[f] == part) text += face_line(mesh, f);
         }

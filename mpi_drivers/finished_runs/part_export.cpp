@@ -43,6 +43,20 @@ std::string file_of(const FaceArrays& arrays, int part, int piece) {
            (piece < 0 ? "" : "_" + std::to_string(piece));
 }
 
+/// Removes the parts of an earlier export, which may be others.
+void remove_parts(const std::string& folder, std::string_view suffix) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> earlier;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        const std::size_t digit = std::string_view("part_").size();
+        const bool is_part = name.starts_with("part_") && name.ends_with(suffix) && name.size() > digit &&
+                             name[digit] >= '0' && name[digit] <= '9';
+        if (is_part && entry.is_regular_file(ignored)) earlier.push_back(entry.path());
+    }
+    for (const std::filesystem::path& path : earlier) std::filesystem::remove(path, ignored);
+}
+
 /// The values of these faces only.
 FaceArrays selected_arrays(const FaceArrays& arrays, const std::vector<int>& faces) {
     FaceArrays selected;
@@ -83,6 +97,7 @@ void write_split(const MeshFormat& format, const std::string& folder, const Labe
     std::error_code cause;
     std::filesystem::create_directories(folder, cause);
     if (cause) throw Error(ExitCode::output, folder + ": cannot be made (" + cause.message() + ")");
+    remove_parts(folder, format.suffix);
     if (format.write_shared != nullptr) format.write_shared(folder, parts);
     const std::vector<int>* pieces = pieces_in(arrays);
     std::map<std::pair<int, int>, std::vector<int>> faces;

@@ -12,6 +12,15 @@ grep -q collection.vtm "$work/out" || fail "export does not say where the collec
 [[ $(head -n 2 "$work/result/obj/pliers_0000.obj" | tail -n 1) == "mtllib parts.mtl" ]] || fail "OBJ without materials"
 [[ $(grep -c '^f ' "$work/result/obj/pliers_0000.obj") -eq $(wc -l <"$work/result/labels/pliers_0000.seg") ]] || fail "faces of the OBJ"
 [[ $(grep -c newmtl "$work/result/obj/parts.mtl") -eq 3 ]] || fail "materials"
+printf 'left jaw\nright jaw\npin\n' >"$work/names"
+"$COSEG" export "$work/result" --to obj --names "$work/names" --out "$work/called" >/dev/null
+grep -q '^g left_jaw$' "$work/called/obj/pliers_0000.obj" || fail "OBJ without names of parts"
+# What an earlier export has split is not left among the new parts.
+"$COSEG" export "$work/result" --to obj --split --names "$work/names" --out "$work/called" >/dev/null
+touch "$work/called/obj/pliers_0000/party.obj"
+"$COSEG" export "$work/result" --to obj --split --out "$work/called" >/dev/null
+[[ $(ls "$work/called/obj/pliers_0000") == $'part_0.obj\npart_1.obj\npart_2.obj\nparts.mtl\nparty.obj' ]] ||
+    fail "parts of an earlier export: $(ls "$work/called/obj/pliers_0000")"
 "$COSEG" export "$work/result" --to ply --out "$work/again" >"$work/out"
 cmp "$work/result/ply/pliers_0001.ply" "$work/again/ply/pliers_0001.ply" || fail "the exported PLY is not the run's"
 cp -r "$work/result" "$work/edited"
