@@ -102,6 +102,17 @@ ContentHash content_of(const std::vector<FeatureMatrix>& features, const std::ve
     return hasher.result();
 }
 
+ContentHash content_of(const ClusterSettings& given) {
+    ContentHasher hasher;
+    for (const int number : {given.parts, given.links, given.max_iterations}) hasher.add(number);
+    for (const double number : {given.alpha, given.beta, given.lambda, given.gap, given.max_seconds})
+        hasher.add(number);
+    for (const std::string* text : {&given.variant, &given.scope, &given.affinity}) hasher.add(*text);
+    hasher.add(given.unit_items);
+    hasher.add(given.seed);
+    return hasher.result();
+}
+
 /// W of each feature on all ranks: what is 0 for a feature is left out of its matrix. Collective.
 std::vector<SparseMatrix> all_coefficients(const Comm& comm, const SparseCoefficients& local) {
     const SparseCoefficients w = all_gathered(comm, local);
@@ -130,6 +141,7 @@ SparseMatrix whole_affinity(const Comm& comm, const SparseCoefficients& w, Affin
 Clusters clustered(LibraryCall& library, const std::vector<FeatureMatrix>& features,
                    const ClusterSettings& given) {
     const Comm& comm = library.comm();
+    refuse_differences(comm, content_of(given), "settings");
     ClusterOptions options;
     ClusterData data;
     agree(comm, [&] {

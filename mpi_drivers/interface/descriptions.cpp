@@ -75,6 +75,12 @@ std::vector<int> weighted_rows(const std::vector<double>& weights) {
 std::vector<ShapeDescription> all_described(LibraryCall& library, std::span<const Shape> given,
                                             const std::vector<Option>& named) {
     const Comm& comm = library.comm();
+    ContentHasher hasher;
+    for (const auto& [name, value] : named) {
+        hasher.add(name);
+        hasher.add(value);
+    }
+    refuse_differences(comm, hasher.result(), "options");
     DescriptionOptions options;
     agree(comm, [&] {
         const RunOptions run = options_by_name(named);

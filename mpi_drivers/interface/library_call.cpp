@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 #include <petscsys.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -26,8 +27,13 @@ bool mpi_is_finalized() {
     return flag != 0;
 }
 
+/// A process that was forked from ours has our MPI in its memory and nothing of it: what it would end there
+/// is the parent's.
+pid_t process_of_mpi = 0;
+bool is_forked() { return ::getpid() != process_of_mpi; }
+
 void end_mpi() {
-    if (!mpi_is_finalized()) MPI_Finalize();
+    if (!is_forked() && !mpi_is_finalized()) MPI_Finalize();
 }
 
 void start_mpi() {
@@ -37,13 +43,14 @@ void start_mpi() {
         throw Error(ExitCode::usage, "MPI has been finalised in this process; call coseg before that");
     if (is_started != 0) return;
     initialise_mpi(MPI_THREAD_SERIALIZED);
+    process_of_mpi = ::getpid();
     std::atexit(end_mpi);
 }
 
 /// Ends PETSc before whoever has started MPI ends that: after it, PETSc must be left as it is.
 PetscSession* session_of_process = nullptr;
 void end_petsc() {
-    if (!mpi_is_finalized()) delete session_of_process;
+    if (!is_forked() && !mpi_is_finalized()) delete session_of_process;
 }
 
 /// Between PetscInitialize and PetscFinalize objects may be made on any communicator; the two themselves are
@@ -53,6 +60,7 @@ void start_petsc() {
     PetscBool is_started = PETSC_FALSE;
     PetscInitialized(&is_started);
     if (is_started == PETSC_FALSE) PETSC_COMM_WORLD = MPI_COMM_SELF;
+    if (process_of_mpi == 0) process_of_mpi = ::getpid();
     session_of_process = std::make_unique<PetscSession>(std::vector<std::string>{}).release();
     std::atexit(end_petsc);
 }

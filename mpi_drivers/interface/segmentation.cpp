@@ -1,6 +1,7 @@
 // coseg::segment and coseg::assign.
 
 #include <coseg/coseg.hpp>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -111,6 +112,37 @@ void add_solution(Segmentation& result, const SolveResult& solution, double gap)
     }
 }
 
+ContentHash content_of(const SegmentOptions& given) {
+    ContentHasher hasher;
+    hasher.add(given.parts);
+    for (const auto& [name, value] : given.options) {
+        hasher.add(name);
+        hasher.add(value);
+    }
+    for (const bool is_set : {given.strict, given.keep_model, given.replace}) hasher.add(is_set);
+    hasher.add(given.folder);
+    hasher.add(given.state);
+    return hasher.result();
+}
+
+ContentHash content_of(const AssignOptions& given) {
+    ContentHasher hasher;
+    for (const bool is_set : {given.strict, given.replace}) hasher.add(is_set);
+    for (const std::string* text : {&given.folder, &given.state, &given.examples}) hasher.add(*text);
+    return hasher.result();
+}
+
+/// By what a later mesh is labelled, but for the values of the features.
+ContentHash content_of(const RunModel& model) {
+    ContentHasher hasher;
+    hasher.add(model.options.partition.parts);
+    hasher.add(model.options.description.seed);
+    hasher.add(std::span<const int>(model.part_of_patch));
+    hasher.add(std::span<const int>(model.mesh_of));
+    for (const std::string& name : model.mesh_names) hasher.add(name);
+    return hasher.result();
+}
+
 RunOptions run_options(const SegmentOptions& given) {
     RunOptions options = options_by_name(given.options);
     if (given.parts != automatic_parts && (given.parts < 1 || given.parts > most_parts))
@@ -128,6 +160,7 @@ RunOptions run_options(const SegmentOptions& given) {
 
 Segmentation segmented(LibraryCall& library, std::span<const Shape> given, const SegmentOptions& settings) {
     const Comm& comm = library.comm();
+    refuse_differences(comm, content_of(settings), "options");
     RunOptions options;
     agree(comm, [&] { options = run_options(settings); });
     const CollectionShapes shapes(comm, given);
@@ -150,6 +183,8 @@ Segmentation segmented(LibraryCall& library, std::span<const Shape> given, const
 Segmentation assigned(LibraryCall& library, std::span<const Shape> given, const Model& model,
                       const AssignOptions& settings) {
     const Comm& comm = library.comm();
+    refuse_differences(comm, content_of(settings), "options");
+    refuse_differences(comm, content_of(model.run), "models");
     const CollectionShapes shapes(comm, given);
     RunOptions own;
     own.output.folder = settings.folder;
@@ -180,6 +215,9 @@ Segmentation interface_1::segment(std::span<const Shape> shapes, const SegmentOp
 
 std::shared_ptr<const Model> interface_1::load_model(const std::string& folder, const Call& call) {
     return in_call(call, [&](LibraryCall& library) {
+        ContentHasher hasher;
+        hasher.add(folder);
+        refuse_differences(library.comm(), hasher.result(), "folders");
         return std::make_shared<const Model>(agreed_run_model(library.comm(), folder, library.log()), folder);
     });
 }
@@ -187,8 +225,11 @@ std::shared_ptr<const Model> interface_1::load_model(const std::string& folder, 
 Segmentation interface_1::assign(std::span<const Shape> shapes, const std::shared_ptr<const Model>& model,
                                  const AssignOptions& options, const Call& call) {
     return in_call(call, [&](LibraryCall& library) {
-        if (model == nullptr)
-            throw Error(ExitCode::usage, "assign() was given no model; segment() gives one with keep_model");
+        agree(library.comm(), [&] {
+            if (model == nullptr)
+                throw Error(ExitCode::usage,
+                            "assign() was given no model; segment() gives one with keep_model");
+        });
         return assigned(library, shapes, *model, options);
     });
 }

@@ -21,9 +21,12 @@ bool is_of_command_line(const std::string& name) {
            of_the_command_line.end();
 }
 
-void refuse_unknown(const std::vector<NamedOption>& given, const std::vector<std::string>& names) {
+void refuse_unusable(const std::vector<NamedOption>& given, const std::vector<std::string>& names) {
     for (const auto& [name, value] : given) {
-        if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+        if (std::find(names.begin(), names.end(), name) != names.end()) {
+            if (!value.empty()) continue;
+            throw Error(ExitCode::usage, "'" + name + "' has an empty value; give one, or leave it out");
+        }
         const std::string meant = nearest_word(name, names);
         throw Error(ExitCode::usage, "'" + name + "' is no option" +
                                          (meant.empty() ? "; coseg run --help-all lists the options"
@@ -47,7 +50,7 @@ RunOptions options_by_name(const std::vector<NamedOption>& given) {
     CLI::App app;
     RunOptions options;
     const RunOptionTable table(app, options);
-    refuse_unknown(given, named_in(table, &OptionValue::key));
+    refuse_unusable(given, named_in(table, &OptionValue::key));
     std::vector<std::string> words = {"--parts=2", "--out=-", "-"};  // required, and given in another way
     for (const auto& [name, value] : given) words.push_back("--" + name + "=" + value);
     std::reverse(words.begin(), words.end());  // as CLI11 takes them

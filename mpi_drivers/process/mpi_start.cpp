@@ -22,6 +22,15 @@ struct Setting {
 constexpr std::array<Setting, 2> alone{
     {{"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_orte_create_session_dirs", "0"}}};
 
+/// What Open MPI tells itself of such a process through its environment. A program that the process starts
+/// would take it for its own: mpirun then ends without a word.
+constexpr std::array<const char*, 6> told_by_mpi{"OMPI_MCA_ess",
+                                                 "OMPI_MCA_pmix",
+                                                 "OMPI_MCA_orte_ess_num_procs",
+                                                 "OMPI_MCA_orte_precondition_transports",
+                                                 "OMPI_APP_CTX_NUM_PROCS",
+                                                 "ORTE_SCHIZO_DETECTION"};
+
 }  // namespace
 
 void initialise_mpi(int thread_level) {
@@ -30,6 +39,9 @@ void initialise_mpi(int thread_level) {
         if (is_launched() || std::getenv(setting.variable) != nullptr) continue;
         ::setenv(setting.variable, setting.value, 1);
         ours.push_back(setting.variable);
+    }
+    for (const char* variable : told_by_mpi) {
+        if (std::getenv(variable) == nullptr) ours.push_back(variable);
     }
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, thread_level, &provided);

@@ -47,6 +47,25 @@ try:
     raise SystemExit("a bad shape was taken")
 except coseg.InputError as error:
     assert "shape 1: face 0 refers to vertex 9" in str(error), error
+# What differs between the ranks is named, and no rank waits for another.
+def differ(call):
+    try:
+        call()
+    except coseg.UsageError as error:
+        assert "was given other" in str(error), error
+    else:
+        raise SystemExit("ranks that say different things were not told")
+
+rank = int(os.environ.get("OMPI_COMM_WORLD_RANK", "0"))
+few = dict(patches=20, geodesic_samples=50, oversegmentations=1, comm=comm)
+if int(sys.argv[2]) > 1:
+    differ(lambda: coseg.segment(shapes, 2 + rank, **few))
+    differ(lambda: coseg.segment(shapes, 2, out=os.path.join(sys.argv[3], "nowhere") if rank == 0 else None, **few))
+    differ(lambda: coseg.segment(shapes, 2, seed=1 + rank, **few))
+    differ(lambda: coseg.segment(shapes, 2, keep_model=rank == 0, **few))
+    differ(lambda: coseg.describe(shapes, geodesic_samples=50 + rank, comm=comm))
+    differ(lambda: coseg.cluster([[2, 1], [1, 2], [2, 1], [1, 2]], 2 + rank, comm=comm))
+    differ(lambda: coseg.assign(shapes, result, strict=rank == 0, comm=comm))
 # A file a process: mpirun may run the lines of two processes into one.
 with open(os.path.join(sys.argv[3], str(os.getpid())), "w") as file:
     print(hashlib.sha256(b"".join(labels.tobytes() for labels in result.labels)).hexdigest(), file=file)
@@ -58,6 +77,23 @@ mkdir "$work"/{alone,together,mpi4py}
 give_the_bytes() {
     [[ $(cat "$work/$1"/* | wc -l) -eq 2 && $(sort -u "$work/$1"/*) == "$(cat "$work/alone"/*)" ]] || fail "labels on two processes: $1"
 }
+# A program that a process of coseg starts is not part of it, and neither is a process that is forked from it.
+cat >"$work/starts.py" <<'END'
+import os
+import subprocess
+import sys
+import coseg
+matrix = [[2, 1], [1, 2], [2, 1], [1, 2]]
+first = coseg.cluster(matrix, 2).labels.tolist()
+subprocess.run(sys.argv[1:], check=True)
+child = os.fork()
+if child == 0:
+    sys.exit(0)
+assert os.waitpid(child, 0)[1] == 0
+assert coseg.cluster(matrix, 2).labels.tolist() == first
+END
+timeout 120 "$python" "$work/starts.py" "$COSEG" run --ranks 2 --quiet --patches 10 --oversegmentations 1 --geodesic-samples 20 --no-choose --no-html \
+    --no-sheet --parts 2 --out "$work/started" "$work/set/meshes" || fail "a program that is started by a process of coseg"
 ranks 2 "$python" "$work/shared.py" world 2 "$work/together" "$work/set/meshes" || fail "a script on two processes"
 give_the_bytes together
 if "$python" -c "import mpi4py" 2>/dev/null; then

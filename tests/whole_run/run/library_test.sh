@@ -45,7 +45,7 @@ cmake_minimum_required(VERSION 3.22)
 project(consumer LANGUAGES CXX)
 find_package(coseg REQUIRED COMPONENTS $1)
 message(STATUS "module in '\${coseg_PYTHON_DIR}', PETSc '\${PETSC_FOUND}'")
-if(TARGET coseg::$1)
+if(TARGET "coseg::$1")
   add_executable(consumer consumer.cpp)
   target_link_libraries(consumer PRIVATE coseg::$1)
 endif()
@@ -72,6 +72,9 @@ if ldd "$work/io/build/consumer" | grep -q -i "petsc\|slepc"; then fail "coseg::
 if [[ -f $work/prefix/lib/python3/dist-packages/coseg/__init__.py ]]; then
     configure python || { tail "$work/log"; fail "find_package(coseg COMPONENTS python)"; }
     grep -q "module in '$work/prefix/lib/python3/dist-packages'" "$work/log" || fail "the module's folder"
+    # Other packages are looked for in between, and say where they are in variables of the same names.
+    configure "io core python" || { tail "$work/log"; fail "find_package(coseg COMPONENTS io core python)"; }
+    grep -q "module in '$work/prefix/lib/python3/dist-packages'" "$work/log" || fail "the module's folder after other components"
 else
     if configure python; then fail "a module that is not installed is found"; fi
 fi
