@@ -1,5 +1,6 @@
 #include "mpi_drivers/assignment.hpp"
 
+#include <filesystem>
 #include <utility>
 
 #include "mpi_drivers/describe/face_features.hpp"
@@ -15,6 +16,19 @@
 
 namespace coseg {
 
+namespace {
+
+/// Results that replace the run's would take its model away, and with it the way to label more shapes.
+void refuse_folder_of_run(const std::string& folder, const std::string& run) {
+    std::error_code ignored;  // where one of them is not there, they are not the same
+    if (!folder.empty() && std::filesystem::equivalent(folder, run, ignored))
+        throw Error(ExitCode::usage, folder +
+                                         " holds the run that the shapes are labelled like; write the new "
+                                         "labels into a folder of their own");
+}
+
+}  // namespace
+
 void assign(const Comm& comm, const std::string& run, const RunOptions& own,
             const std::vector<std::string>& petsc_arguments) {
     StageLog log(comm, own.process.verbosity(), own.process.log_form());
@@ -28,6 +42,7 @@ void assign(const Comm& comm, const std::string& run, const RunOptions& own,
 
 AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, const RunModel& model,
                       const std::string& run, const RunOptions& own, StageLog& log) {
+    agree(comm, [&] { refuse_folder_of_run(own.output.folder, run); });
     refuse_other_face_features(model, own.features);
     const RunOptions options = options_of_assignment(model.options, own);
     const auto& [preset, description, feature_options, optimise, partition, output, process] = options;

@@ -112,8 +112,9 @@ std::vector<std::string> interface_1::mesh_files(const std::vector<std::string>&
 std::vector<GeneratedShape> interface_1::generate(const std::string& family, int count, std::uint64_t seed,
                                                   int faces) {
     return with_failures([&] {
-        if (count < 1 || count > 1000000)
-            throw Error(ExitCode::usage, "count: " + std::to_string(count) + " is not in 1 .. 1000000");
+        if (count < 1 || count > most_generated_shapes)
+            throw Error(ExitCode::usage, "count: " + std::to_string(count) + " is not in 1 .. " +
+                                             std::to_string(most_generated_shapes));
         std::vector<GeneratedShape> shapes;
         for (int k = 0; k < count; ++k) shapes.push_back(generated(family, k, count, seed, faces));
         return shapes;

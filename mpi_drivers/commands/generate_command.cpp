@@ -141,13 +141,13 @@ Command add_generate_command(CLI::App& parent) {
     app->add_option("FAMILY", options->family, "The family; `list` prints them all");
     app->add_option("--count", options->count, "Number of shapes")
         ->capture_default_str()
-        ->check(CLI::Range(1, 100000));
+        ->check(CLI::Range(1, most_generated_shapes));
     app->add_option("--seed", options->seed, "The same seed gives the same shapes")
         ->check(unsigned_number)
         ->capture_default_str();
     app->add_option("--faces", options->faces, "Faces per shape, met within 15 %")
         ->capture_default_str()
-        ->check(CLI::Range(2000, 20000));
+        ->check(CLI::Range(least_generated_faces, most_generated_faces));
     app->add_option("--out", options->out,
                     "Folder to write into: meshes/NAME.off, truth/NAME.seg, truth/labels.txt");
     app->add_flag("--force", options->force,

@@ -129,9 +129,10 @@ const ShapeFamily& shape_family(const std::string& name) {
 LabeledShape generate_shape(const std::string& family, std::uint64_t seed, int index, int target_faces) {
     const std::ptrdiff_t number = &shape_family(family) - shape_families().data();
     const Recipe& recipe = recipes()[at(number)];
-    if (target_faces < 500 || target_faces > 200000) {
-        throw Error(ExitCode::usage,
-                    "a generated shape has 500 to 200000 faces, not " + std::to_string(target_faces));
+    if (target_faces < least_generated_faces || target_faces > most_generated_faces) {
+        throw Error(ExitCode::usage, "a generated shape has " + std::to_string(least_generated_faces) +
+                                         " to " + std::to_string(most_generated_faces) + " faces, not " +
+                                         std::to_string(target_faces));
     }
     SeededStream random(hash_words({seed, hash_text(family), static_cast<std::uint64_t>(index)}));
     const ImplicitShape solid = recipe.make(random, index);
