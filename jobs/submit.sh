@@ -52,15 +52,25 @@ collection=${words[0]}
 parts=${words[1]}
 [[ $parts =~ ^[1-9][0-9]*$ ]] || { echo "error: K must be a positive number, not '$parts'" >&2; exit 2; }
 
+# meshes_in FOLDER : how many meshes it holds.
+meshes_in() { find -L "$1" -maxdepth 1 -type f -iregex '.*\.\(off\|obj\|ply\|stl\|glb\|gltf\|vtp\)' | wc -l; }
+
 if [[ $collection == @* ]]; then
     [[ -r ${collection#@} ]] || { echo "error: ${collection#@} cannot be read" >&2; exit 3; }
-    count=$(grep -c '^[[:space:]]*[^#[:space:]]' "${collection#@}" || true)
+    count=0
+    folder=$(dirname "${collection#@}")
+    while IFS= read -r line || [[ -n $line ]]; do
+        [[ $line =~ ^[[:space:]]*[^#[:space:]] ]] || continue
+        path=$folder/$line
+        [[ $line != /* ]] || path=$line
+        if [[ -d $path ]]; then count=$((count + $(meshes_in "$path"))); else count=$((count + 1)); fi
+    done <"${collection#@}"
     name=$(basename "${collection#@}")
     name=${name%.*}
     collection=@$(realpath "${collection#@}")
 else
     [[ -d $collection ]] || { echo "error: $collection is no folder; name a folder of meshes or @LIST" >&2; exit 3; }
-    count=$(find -L "$collection" -maxdepth 1 -type f -iregex '.*\.\(off\|obj\|ply\|stl\|glb\|gltf\|vtp\)' | wc -l)
+    count=$(meshes_in "$collection")
     name=$(basename "$(realpath "$collection")")
     collection=$(realpath "$collection")
 fi

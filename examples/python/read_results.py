@@ -9,6 +9,8 @@ import sys
 import h5py
 import numpy
 
+if len(sys.argv) != 2:
+    sys.exit("usage: read_results.py RESULT")
 result = sys.argv[1]
 report = json.load(open(f"{result}/report.json"))
 for mesh in report["meshes"]:
