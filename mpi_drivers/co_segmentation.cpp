@@ -125,6 +125,10 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
         values = with_corrected_parts(std::move(values), followed.parts);
         cut = std::move(followed.corrected.cut);
         examples.faces = std::move(followed.corrected.faces);
+        examples.names = std::move(followed.names);
+        if (given.partition.levels)
+            log.warn(
+                "no levels are written: corrections and constraints change the parts of one level alone");
         agree(comm, [&] {
             if (comm.is_root() && folders.keeps_results())
                 write_corrections(folders.results() + "/" + corrections_file, followed.file);
@@ -148,8 +152,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
         if (output.keep_model)
             write_run_model(comm, folders.results(), collection, model, cut.part_of_patch, options);
         report = write_results(comm, folders.results(), outcome, output, log);
-        const bool has_names = parts == base_options.partition.parts;
-        if (has_names) write_names_of_examples(comm, folders.results(), examples);
+        write_part_names(comm, folders.results(), examples.names);
         if (output.profile) write_profile(comm, folders.results(), options.process, log);
     } else {
         report = run_report(comm, outcome, log);

@@ -40,7 +40,7 @@ struct BasePartition {
 
     /// What corrections are about. It refers to this.
     [[nodiscard]] CorrectionBase base() const {
-        return {collection, cut, options.partition.parts, examples.faces};
+        return {collection, cut, options.partition.parts, examples.faces, examples.names};
     }
     /// What they are followed with. It refers to this.
     [[nodiscard]] SolvedPatches solved() const { return {features, optimisation.result.coefficients}; }

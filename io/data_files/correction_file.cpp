@@ -87,6 +87,26 @@ class ActReader {
     std::vector<std::string> asked_;
 };
 
+/// No act is deep; a text of brackets alone would become a tree of hundreds of times its size.
+Json parsed_json(std::string_view text) {
+    constexpr int deepest = 16;
+    return Json::parse(text, [](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+        if (depth > deepest) refuse_file("is nested more than " + std::to_string(deepest) + " deep");
+        return true;
+    });
+}
+
+/// JSON holds no names that are not UTF-8: their bytes stand beside them.
+void set_shape(Json& json, const std::string& shape) {
+    json["shape"] = shape;
+    if (const auto bytes = hex_unless_utf8(shape)) json["shape_bytes"] = *bytes;
+}
+
+std::string shape_of(ActReader& act) {
+    const std::string name = act.text("shape");
+    return act.has("shape_bytes") ? bytes_of_hex(act.text("shape_bytes")) : name;
+}
+
 /// Adds to a message about a text where that text stands.
 template <class Step>
 auto in_place(const std::string& where, Step&& step) {
@@ -100,7 +120,7 @@ auto in_place(const std::string& where, Step&& step) {
 CorrectedPlace place_of(ActReader& act, const char* name) {
     ActReader reader(act.member(name), act.where() + ", \"" + name + "\"");
     CorrectedPlace place;
-    place.shape = reader.text("shape");
+    place.shape = shape_of(reader);
     if (reader.has("face"))
         place.face = reader.number("face", 0, most_faces);
     else if (reader.has("patch"))
@@ -131,7 +151,7 @@ std::string checked_color(const std::string& color, const std::string& where) {
 
 void read_label(ActReader& act, Correction& correction) {
     correction.part = act.number("part", 0, most_parts - 1);
-    correction.shape = act.text("shape");
+    correction.shape = shape_of(act);
     if (!act.has("faces") && !act.has("patches"))
         refuse_file(act.where() + ": \"faces\" or \"patches\" is missing");
     for (const char* name : {"faces", "patches"}) {
@@ -161,7 +181,7 @@ Correction read_act(const Json& json, const std::string& where) {
             read_label(act, c);
             break;
         case CorrectionKind::confirm: {
-            c.shape = act.text("shape");
+            c.shape = shape_of(act);
             const std::string runs = act.text("labels");
             c.labels = in_place(where, [&] { return parsed_runs(runs); });
             break;
@@ -186,7 +206,7 @@ Correction read_act(const Json& json, const std::string& where) {
             break;
         case CorrectionKind::absent:
             c.part = part();
-            c.shape = act.text("shape");
+            c.shape = shape_of(act);
             break;
         case CorrectionKind::must_link:
         case CorrectionKind::cannot_link:
@@ -204,7 +224,7 @@ Correction read_act(const Json& json, const std::string& where) {
 
 Json json_of(const CorrectedPlace& place) {
     Json json;
-    json["shape"] = place.shape;
+    set_shape(json, place.shape);
     if (place.face >= 0)
         json["face"] = place.face;
     else
@@ -217,7 +237,7 @@ Json json_of(const Correction& c) {
     json["act"] = to_string(c.kind);
     if (c.part >= 0) json[c.kind == CorrectionKind::level ? "parts" : "part"] = c.part;
     if (c.into >= 0) json["into"] = c.into;
-    if (!c.shape.empty()) json["shape"] = c.shape;
+    if (!c.shape.empty()) set_shape(json, c.shape);
     if (!c.faces.empty()) json["faces"] = number_ranges(c.faces);
     if (!c.patches.empty()) json["patches"] = number_ranges(c.patches);
     if (!c.labels.empty()) json["labels"] = label_runs(c.labels);
@@ -232,7 +252,7 @@ Json json_of(const Correction& c) {
 Json parsed_object(const std::string& path, std::string_view bytes, const char* format) {
     Json json;
     try {
-        json = Json::parse(bytes);
+        json = parsed_json(bytes);
     } catch (const Json::exception& error) {
         refuse_file(path + ": is no JSON (" + json_failure(error) + ")");
     }
@@ -410,7 +430,7 @@ std::vector<Correction> read_constraints(const std::string& path) {
 Correction parsed_correction(std::string_view json, const std::string& where) {
     Json parsed;
     try {
-        parsed = Json::parse(json);
+        parsed = parsed_json(json);
     } catch (const Json::exception& error) {
         refuse_file(where + ": is no JSON (" + json_failure(error) + ")");
     }

@@ -63,7 +63,9 @@ FinishedRun run_of(const std::string& folder, const Json& report) {
     const Json& options = report.at("options");
     for (const auto& [key, value] : options.items())
         run.options.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
-    run.state = options.value("state", "");
+    // Absolute there; the option is as it was given, relative to where the run was started.
+    run.state = report.contains("state") ? report.at("state").at("folder").get<std::string>()
+                                         : options.value("state", "");
     run.parts = whole_number(options, "parts", 1, any);
     run.seed = options.at("seed").get<std::uint64_t>();
     run.weld = options.value("weld", "auto");

@@ -1,14 +1,12 @@
 #include "mpi_drivers/editing/corrected_cut.hpp"
 
 #include <algorithm>
-#include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "io/data_files/correction_file.hpp"
 #include "mpi_drivers/describe/patch_gather.hpp"
-#include "mpi_drivers/editing/linked_places.hpp"
+#include "mpi_drivers/editing/places_of_links.hpp"
 #include "mpi_drivers/partition/cut_stage.hpp"
 #include "mpi_drivers/partition/example_stage.hpp"
 #include "solvers/partition/patch_partition.hpp"
@@ -19,12 +17,6 @@
 namespace coseg {
 
 namespace {
-
-std::string named_act(const std::vector<Correction>& acts, int act) {
-    if (act < 0) return "an example";
-    const Correction& c = acts[at(act)];
-    return c.where + " (" + summary_of(c) + ")";
-}
 
 /// Faces that are said to have a part that their shape does not have.
 void refuse_absent_labels(const CorrectionBase& base, const CorrectionState& state,
@@ -88,121 +80,6 @@ void refuse_shapes_without_parts(const CorrectionBase& base, const CorrectionSta
     }
 }
 
-/// What the rank that holds a place's mesh knows of it.
-struct PlaceFacts {
-    int place = 0;
-    int patch = 0;  ///< global number
-    int said = -1;
-    int act = -1;
-    static constexpr auto fields() {
-        return std::tuple(field("place", &PlaceFacts::place), field("patch", &PlaceFacts::patch),
-                          field("said", &PlaceFacts::said), field("act", &PlaceFacts::act));
-    }
-};
-
-/// The places of all links, each once.
-class Places {
-  public:
-    explicit Places(const CorrectionState& state) {
-        for (const Correction& link : state.links()) {
-            const bool same = link.kind == CorrectionKind::must_link;
-            links_.push_back({number_of(state, link.first), number_of(state, link.second), same,
-                              link.where + " (" + summary_of(link) + ")"});
-        }
-    }
-
-    [[nodiscard]] const std::vector<PlaceLink>& links() const { return links_; }
-
-    /// Fills in what the ranks know. Collective.
-    void find(const Comm& comm, const CorrectionBase& base, const CorrectionState& state) {
-        std::vector<PlaceFacts> local;
-        agree(comm, [&] {
-            for (std::size_t k = 0; k < state.said().size(); ++k) add_local(base, state, k, local);
-        });
-        facts_ = all_gather_records(comm, local);
-        std::sort(facts_.begin(), facts_.end(),
-                  [](const PlaceFacts& a, const PlaceFacts& b) { return a.place < b.place; });
-    }
-
-    [[nodiscard]] std::vector<LinkedPlace> with_scores(const Eigen::MatrixXd& scores,
-                                                       const std::vector<Correction>& acts) const {
-        std::vector<LinkedPlace> places;
-        for (const PlaceFacts& fact : facts_)
-            places.push_back(
-                {mesh_[at(fact.place)], fact.said, named_act(acts, fact.act), scores.col(fact.patch)});
-        return places;
-    }
-
-    /// Adds the parts of all places to what is said of patches and faces; patches first, so that a face
-    /// inside of one keeps its own.
-    void say(const CorrectionBase& base, const std::vector<int>& parts, const std::vector<double>& patch_area,
-             CorrectedCut& result) const {
-        for (const PlaceFacts& fact : facts_)
-            result.said_area(parts[at(fact.place)], fact.patch) += patch_area[at(fact.patch)];
-        for (const bool patches : {true, false}) {
-            for (std::size_t k = 0; k < base.collection.local.size(); ++k) {
-                for (const PlaceFacts& fact : facts_) {
-                    const CorrectedPlace& place = place_[at(fact.place)];
-                    if (mesh_[at(fact.place)] != base.collection.local[k].mesh || (place.face < 0) != patches)
-                        continue;
-                    say_faces(base.collection.local[k], place, parts[at(fact.place)], result.faces[k]);
-                }
-            }
-        }
-    }
-
-  private:
-    int number_of(const CorrectionState& state, const CorrectedPlace& place) {
-        for (std::size_t p = 0; p < place_.size(); ++p) {
-            if (place_[p] == place) return static_cast<int>(p);
-        }
-        place_.push_back(place);
-        mesh_.push_back(state.mesh_of(place.shape, "a link"));
-        return static_cast<int>(place_.size()) - 1;
-    }
-
-    void add_local(const CorrectionBase& base, const CorrectionState& state, std::size_t k,
-                   std::vector<PlaceFacts>& local) const {
-        const MeshDescription& mesh = base.collection.local[k];
-        if (std::find(mesh_.begin(), mesh_.end(), mesh.mesh) == mesh_.end()) return;
-        const std::vector<int> patch = patch_of_input_face(mesh);
-        const int first = base.collection.numbering.first(mesh.mesh, 0);
-        const SaidFaces& said = state.said()[k];
-        for (std::size_t p = 0; p < place_.size(); ++p) {
-            if (mesh_[p] != mesh.mesh) continue;
-            const CorrectedPlace& place = place_[p];
-            PlaceFacts fact{static_cast<int>(p),
-                            first + (place.face >= 0 ? patch[at(place.face)] : place.patch), -1, -1};
-            for (std::size_t f = 0; f < said.part.size(); ++f) {
-                const bool is_in =
-                    place.face >= 0 ? static_cast<int>(f) == place.face : patch[f] == place.patch;
-                if (!is_in || said.part[f] < 0 || fact.said >= 0) continue;
-                fact.said = said.part[f];
-                fact.act = said.act[f];
-            }
-            local.push_back(fact);
-        }
-    }
-
-    static void say_faces(const MeshDescription& mesh, const CorrectedPlace& place, int part,
-                          std::vector<int>& faces) {
-        if (faces.empty()) faces.assign(at(mesh.map.input_faces), -1);
-        if (place.face >= 0) {
-            faces[at(place.face)] = part;
-            return;
-        }
-        const std::vector<int> patch = patch_of_input_face(mesh);
-        for (std::size_t f = 0; f < faces.size(); ++f) {
-            if (patch[f] == place.patch && faces[f] < 0) faces[f] = part;
-        }
-    }
-
-    std::vector<CorrectedPlace> place_;
-    std::vector<int> mesh_;
-    std::vector<PlaceLink> links_;
-    std::vector<PlaceFacts> facts_;
-};
-
 std::vector<std::vector<std::string>> reasons(const CorrectionState& state,
                                               const std::vector<Correction>& acts) {
     std::vector<std::vector<std::string>> why(at(state.part_count()));
@@ -258,13 +135,13 @@ CorrectedCut corrected_cut(const Comm& comm, const CorrectionBase& base, const C
         Eigen::MatrixXd scores;
         agree(comm, [&] { scores = parts.scores(said); });
         if (!state.links().empty()) {
-            Places places(state);
+            PlacesOfLinks places(state);
             places.find(comm, base, state);
             agree(comm, [&] {
                 places.say(base,
                            parts_of_places(places.with_scores(scores, acts), places.links(), said.allowed,
                                            reasons(state, acts)),
-                           parts.objective().area, result);
+                           parts.objective().area, result.said_area, result.faces);
                 said.area = result.said_area;
                 scores = parts.scores(said);
             });

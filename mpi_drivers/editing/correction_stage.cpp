@@ -68,7 +68,8 @@ FollowedCorrections follow_corrections(const Comm& comm, const CorrectionBase& b
     const CorrectionState state = state_after(comm, base, given.acts);
     FollowedCorrections followed{corrected_cut(comm, base, state, given.acts, *parts),
                                  state.part_count(),
-                                 {base_hash(base), given.acts, {}}};
+                                 {base_hash(base), given.acts, {}},
+                                 state.names()};
     log.end(with_unit(static_cast<std::int64_t>(given.acts.size()), "act", "acts"));
     return followed;
 }

@@ -40,7 +40,8 @@ void refuse_other_run(const Comm& comm, const CorrectionBase& base, const std::s
 struct FollowedCorrections {
     CorrectedCut corrected;
     int parts = 0;
-    CorrectionFile file;  ///< for the folder of results
+    CorrectionFile file;               ///< for the folder of results
+    std::map<int, std::string> names;  ///< of the parts that have one, on rank 0
 };
 
 /// The log has the stage "corrections". Collective; throws AgreedError(input) as refuse_other_run,

@@ -61,7 +61,8 @@ CorrectionState::CorrectionState(const CorrectionBase& base)
       said_(base.collection.local.size()),
       absent_(Eigen::MatrixXi::Constant(base.parts, static_cast<Eigen::Index>(base.collection.meshes.size()),
                                         -1)),
-      confirmed_(base.collection.meshes.size(), false) {
+      confirmed_(base.collection.meshes.size(), false),
+      names_(base.names) {
     for (std::size_t m = 0; m < base.collection.meshes.size(); ++m)
         mesh_of_name_.emplace(base.collection.meshes[m].name, static_cast<int>(m));
     for (std::size_t k = 0; k < base.examples.size(); ++k) {
@@ -125,7 +126,7 @@ void CorrectionState::apply(const Correction& c, int act) {
             split(c);
             break;
         case CorrectionKind::new_part:
-            add_part();
+            add_part(c.where);
             break;
         case CorrectionKind::name:
             require_live(c.part, c.where);
@@ -205,9 +206,9 @@ void CorrectionState::merge(const Correction& c) {
     colors_.erase(c.part);
 }
 
-void CorrectionState::add_part() {
+void CorrectionState::add_part(const std::string& where) {
     if (part_count() >= most_parts)
-        throw Error(ExitCode::input, "there are " + std::to_string(most_parts) + " parts already");
+        refuse(where, "there are " + std::to_string(most_parts) + " parts already");
     is_live_.push_back(true);
     absent_.conservativeResize(part_count(), Eigen::NoChange);
     absent_.bottomRows<1>().setConstant(-1);
@@ -252,7 +253,7 @@ void CorrectionState::split(const Correction& c) {
     if (half.empty())
         refuse(c.where, "part " + std::to_string(c.part) +
                             " does not fall in two at any level; give a new part faces of its own");
-    add_part();
+    add_part(c.where);
     const int added = part_count() - 1;
     const std::vector<int>& piece = base_.cut.tree.piece_of_patch;
     for (std::size_t i = 0; i < base_parts_.size(); ++i) {
@@ -284,6 +285,12 @@ void CorrectionState::take_level(const Correction& c) {
     is_live_.assign(at(c.part), true);
     absent_ = Eigen::MatrixXi::Constant(c.part, absent_.cols(), -1);
     for (std::size_t k = 0; k < base_.examples.size(); ++k) said_[k] = {};
+}
+
+std::string named_act(const std::vector<Correction>& acts, int act) {
+    if (act < 0) return "an example";
+    const Correction& c = acts[at(act)];
+    return c.where + " (" + summary_of(c) + ")";
 }
 
 }  // namespace coseg

@@ -20,6 +20,7 @@ struct CorrectionBase {
     int parts = 0;  ///< K of the cut
     /// GivenLabels::faces, what examples say of the faces of the local meshes; empty without examples.
     const std::vector<std::vector<int>>& examples;
+    const std::map<int, std::string>& names;  ///< that parts have already; on rank 0
 };
 
 /// A hash of what acts refer to: the names and numbers of faces of the meshes, and the part of every patch.
@@ -54,6 +55,7 @@ class CorrectionState {
     [[nodiscard]] const Eigen::MatrixXi& absent() const noexcept { return absent_; }
     [[nodiscard]] const std::vector<Correction>& links() const noexcept { return links_; }
     [[nodiscard]] const std::vector<bool>& confirmed() const noexcept { return confirmed_; }
+    /// On rank 0 with those that parts had before.
     [[nodiscard]] const std::map<int, std::string>& names() const noexcept { return names_; }
     [[nodiscard]] const std::map<int, std::string>& colors() const noexcept { return colors_; }
     /// The number of the shape. Throws Error(input) where there is none of this name.
@@ -67,7 +69,7 @@ class CorrectionState {
     void merge(const Correction& correction);
     void split(const Correction& correction);
     void take_level(const Correction& correction);
-    void add_part();
+    void add_part(const std::string& where);
     void require_live(int part, const std::string& where) const;
     void check_place(const CorrectedPlace& place, const std::string& where) const;
     [[nodiscard]] std::vector<int> halves(int part) const;
@@ -89,5 +91,8 @@ class CorrectionState {
 
 /// The patch of the first over-segmentation of each face of the file, as patches/NAME.seg has it.
 std::vector<int> patch_of_input_face(const MeshDescription& mesh);
+
+/// What messages call an act: where it stands and what it says; an example where `act` is -1.
+std::string named_act(const std::vector<Correction>& acts, int act);
 
 }  // namespace coseg

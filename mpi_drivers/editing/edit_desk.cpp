@@ -115,8 +115,10 @@ HttpReply EditDesk::changed_by(const Order& order) {
         tree.root().member("folder").set(page_.folder + "/corrected");
         return {200, "application/json", tree.line()};
     }
-    const std::string revision = query_value(order.query, "revision");
-    if (whole_number(revision) != session_.revision())
+    const std::string word = query_value(order.query, "revision");
+    const std::optional<int> revision = whole_number(word);
+    if (!revision) throw AgreedError(ExitCode::usage, "revision must be a number, not '" + word + "'");
+    if (revision != session_.revision())
         return refusal(409,
                        "something was done in another page meanwhile; this one now shows it, so please look "
                        "again");
@@ -184,6 +186,8 @@ std::string EditDesk::state_text() {
     for (std::size_t m = 0; m < base_.collection.meshes.size(); ++m) {
         const JsonPlace row = root.member("shapes").element();
         row.member("name").set(base_.collection.meshes[m].name);
+        if (const auto bytes = hex_unless_utf8(base_.collection.meshes[m].name))
+            row.member("name_bytes").set(*bytes);
         row.member("confidence").set(confidence[m]);
         row.member("confirmed").set(bool{state.confirmed()[m]});
     }

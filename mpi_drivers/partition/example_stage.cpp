@@ -163,10 +163,9 @@ GivenLabels read_examples(const Comm& comm, const Collection& collection, const 
     return given;
 }
 
-void write_names_of_examples(const Comm& comm, const std::string& folder, const GivenLabels& examples) {
+void write_part_names(const Comm& comm, const std::string& folder, const LabelNames& names) {
     agree(comm, [&] {
-        if (comm.is_root() && !examples.names.empty())
-            write_file(folder + "/names.txt", names_text(examples.names));
+        if (comm.is_root() && !names.empty()) write_file(folder + "/names.txt", names_text(names));
     });
 }
 

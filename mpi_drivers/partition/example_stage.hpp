@@ -44,8 +44,8 @@ GivenLabels read_given_labels(const Comm& comm, const Collection& collection, co
 GivenLabels read_examples(const Comm& comm, const Collection& collection, const PartitionOptions& options,
                           StageLog& log);
 
-/// FOLDER/names.txt, where `coseg export` and `coseg render` look for the names of parts; nothing where the
-/// examples have no names. Collective; throws AgreedError(output).
-void write_names_of_examples(const Comm& comm, const std::string& folder, const GivenLabels& examples);
+/// FOLDER/names.txt, where `coseg export` and `coseg render` look for the names of parts; nothing where no
+/// part has a name. `names`: on rank 0. Collective; throws AgreedError(output).
+void write_part_names(const Comm& comm, const std::string& folder, const LabelNames& names);
 
 }  // namespace coseg

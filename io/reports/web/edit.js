@@ -11,6 +11,12 @@
   let merging = false;   // M was pressed; the next number names the other part
   let busy = false;
 
+  // How acts name the shape in the large view: its name, and the bytes of one that is not UTF-8.
+  function shapeNow() {
+    const shape = state.shapes[current];
+    return shape.name_bytes ? { shape: shape.name, shape_bytes: shape.name_bytes } : { shape: shape.name };
+  }
+
   function say(text, isBad) {
     element("message").textContent = text;
     element("message").classList.toggle("bad", !!isBad);
@@ -220,7 +226,7 @@
     if (begun.stroke) {
       if (face >= 0) begun.stroke.add(face);
       const faces = [...begun.stroke].sort((a, b) => a - b);
-      if (faces.length) await send("act", { act: "label", part: chosen, shape: state.shapes[current].name, faces: faces.join(",") });
+      if (faces.length) await send("act", { act: "label", part: chosen, ...shapeNow(), faces: faces.join(",") });
       return;
     }
     if (Math.hypot(event.clientX - begun.x, event.clientY - begun.y) > 4 || face < 0) return;
@@ -379,7 +385,7 @@
   on("redo", () => send("redo"));
   on("next", showNext);
   on("confirm", confirmShape);
-  on("absent", () => send("act", { act: "absent", part: chosen, shape: state.shapes[current].name }));
+  on("absent", () => send("act", { act: "absent", part: chosen, ...shapeNow() }));
   on("newPart", async () => { if (await send("act", { act: "new-part" })) { chosen = state.parts[state.parts.length - 1].number; showChosen(); } });
   on("split", () => send("act", { act: "split", part: chosen }));
   on("save", async () => { try { say("written into " + (await ask("save", { method: "POST" })).folder); } catch (error) { say(error.message, true); } });
@@ -411,6 +417,11 @@
     };
     const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (act) { event.preventDefault(); act(); }
+  });
+  // A button that was clicked does not take the next key: Enter confirms the shape again.
+  document.addEventListener("click", (event) => {
+    const button = event.target.closest("button");
+    if (button && event.detail > 0) button.blur();
   });
   window.addEventListener("resize", draw);
 

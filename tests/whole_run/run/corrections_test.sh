@@ -76,6 +76,16 @@ cmp "$work/said/corrections.json" "$work/ranks3/corrections.json" || fail "corre
 "${run[@]}" --corrections "$work/said/corrections.json" --out "$work/again" "$work/set/meshes"
 diff -r "$work/said/labels" "$work/again/labels" || fail "the corrections that the results carry"
 
+# Names of examples and of acts come to the results, and levels that no run writes are named.
+mkdir "$work/examples"
+cp "$work/said/labels/table_0001.seg" "$work/examples/"
+sed -i 's/2/1/' "$work/examples/table_0001.seg"
+printf '0 seat\n1 leg\n' >"$work/examples/names.txt"
+printf 'name,1,foot\nabsent,0,table_0000\n' >"$work/named.csv"
+"${run[@]}" --examples "$work/examples" --levels --constraints "$work/named.csv" --out "$work/named" "$work/set/meshes" 2>"$work/err"
+[[ $(cat "$work/named/names.txt") == $'0 seat\n1 foot' ]] || fail "names.txt: $(cat "$work/named/names.txt")"
+grep -q "no levels are written" "$work/err" || fail "levels are left out without a word"
+
 # Constraints alone, as CSV and as JSON.
 printf '# links\nmust-link, table_0001, 0, table_0002, 5\ncannot-link,table_0001,0,table_0003,9\nabsent,0,table_0000\n' >"$work/c.csv"
 # Parts that were not chosen by the features are corrected all the same.

@@ -60,6 +60,19 @@ TEST(CorrectionFile, WritesNumbersAsRangesAndLabelsAsRuns) {
         EXPECT_THROW(parsed_runs(bad), Error) << bad;
 }
 
+TEST(CorrectionFile, KeepsTheBytesOfNamesThatAreNotUtf8) {
+    Correction said;
+    said.kind = CorrectionKind::absent;
+    said.part = 1;
+    said.shape = "caf\xe9";
+    EXPECT_EQ(parsed_correction(correction_text(said), "here").shape, said.shape);
+    said = {};
+    said.kind = CorrectionKind::must_link;
+    said.first = {"caf\xe9", 3, -1};
+    said.second = {"b", 4, -1};
+    EXPECT_EQ(parsed_correction(correction_text(said), "here").first, said.first);
+}
+
 TEST(CorrectionFile, RefusesWhatNoActCanBe) {
     for (const char* bad :
          {"[]", "{}", "3", R"({"act": 3})", R"({"act": "label", "part": 1, "shape": "a"})",
