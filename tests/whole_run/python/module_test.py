@@ -7,6 +7,7 @@ import pathlib
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 import time
 
@@ -502,6 +503,32 @@ def test_the_interpreter_is_free_and_ctrl_c_works(tables):
     assert len(ticks) > 5
     beat.join()
     assert coseg.segment(tables[:2], 2, **TINY).parts == 2
+
+
+LEAVES = """
+import os, sys, time
+import coseg
+how, first = sys.argv[1], os.environ["OMPI_COMM_WORLD_RANK"] == "0"
+coseg.cluster([[2, 1], [1, 2], [2, 1], [1, 2]], 2, comm="world")
+if how == "works on":
+    try:
+        sys.exit("caught")
+    except SystemExit as error:
+        assert error.code == "caught" and type(error).__name__ == "SystemExit"
+    time.sleep(7 if first else 0)
+    print("rank 0 has worked on" if first else "", flush=True)
+    sys.exit(0)
+if not first:
+    sys.exit(how)
+coseg.cluster([[2, 1], [1, 2], [2, 1], [1, 2]], 2, comm="world")
+"""
+
+
+@pytest.mark.parametrize("how, code, words", [("a reason to end", 1, "a reason to end"), ("works on", 0, "rank 0 has worked on")])
+def test_a_process_that_exits_ends_the_others_only_if_it_fails(how, code, words):
+    answer = subprocess.run(["mpirun", "--oversubscribe", "-n", "2", sys.executable, "-c", LEAVES, how], env=dict(os.environ),
+                            capture_output=True, text=True, check=False, timeout=60)
+    assert answer.returncode == code and words in answer.stdout + answer.stderr, answer
 
 
 def resident_mib():
