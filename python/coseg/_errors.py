@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import re
 from typing import Iterator
 
 from . import _core
@@ -34,6 +35,11 @@ class InputError(Error, ValueError):
         super().__init__(sentence, code)
 
 
+def _as_python_says_it(sentence: str) -> str:
+    """The program's advice with the argument in place of its option, which Python does not take."""
+    return re.sub(r"(?<![\w/-])--force(?![\w-])", "replace=True", sentence)
+
+
 @contextlib.contextmanager
 def translated() -> Iterator[None]:
     """Raises the failures of the extension as the exceptions of this module."""
@@ -41,4 +47,4 @@ def translated() -> Iterator[None]:
         yield
     except _core.Failure as failure:
         code, sentence = failure.args
-        raise {2: UsageError, 3: InputError}.get(code, Error)(sentence, code) from None
+        raise {2: UsageError, 3: InputError}.get(code, Error)(_as_python_says_it(sentence), code) from None

@@ -14,7 +14,7 @@ from ._shapes import (MeshesLike, given_communicator, given_labels, given_option
                       given_shapes)
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Description:
     """The faces of one shape.
 
@@ -34,8 +34,8 @@ def describe(meshes: MeshesLike, *, names: Optional[Sequence[str]] = None, comm:
     """The descriptors of every face: Gaussian curvature, shape diameter, average geodesic distance, shape
     context, conformal factor, and with feature_weights=[1, 1, 1, 1, 1, 1] the wave kernel signature.
 
-    Arguments and exceptions are those of segment(); the options that matter are seed, remesh, patches,
-    geodesic_samples and feature_weights.
+    meshes, names, comm, progress and exceptions are as in segment(), and a shape that cannot be used always raises. Of
+    its **options these matter: seed, remesh, patches, geodesic_samples and feature_weights.
     """
     shapes = given_shapes(meshes, names)
     with translated():
