@@ -23,7 +23,7 @@ from ._errors import Error, InputError, UsageError, translated as _translated
 from ._measures import Description, Score, describe, score
 from ._pictures import draw
 from ._segmentation import Progress, Result, assign, segment
-from ._shapes import MeshesLike, MeshLike, given_whole_number, path_bytes
+from ._shapes import MeshesLike, MeshLike, given_whole_number, path_bytes, text_bytes
 
 __version__ = _core.version()
 
@@ -32,7 +32,7 @@ __all__ = ["Alignment", "Clusters", "Description", "Error", "InputError", "Mesh"
            "load_mesh", "mesh_files", "option_names", "score", "segment"]
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Mesh:
     """A mesh as it stands in a file; segment() and the others take it as a shape.
 
@@ -51,9 +51,10 @@ class Mesh:
     def arrays(self) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
         """vertices, corners and offsets: face f has the corners [offsets[f] .. offsets[f + 1])."""
         if isinstance(self.faces, np.ndarray):
-            return self.vertices, self.faces.reshape(-1), np.arange(0, self.faces.size + 1, 3)
+            faces, corners = self.faces.shape if self.faces.ndim == 2 else (0, 0)
+            return self.vertices, self.faces.reshape(-1), np.arange(faces + 1) * corners
         ends = np.cumsum([0] + [len(face) for face in self.faces])
-        return self.vertices, np.concatenate(self.faces), ends
+        return self.vertices, np.concatenate([np.empty(0, dtype=np.intc), *self.faces]).astype(np.intc), ends
 
 
 def _mesh(vertices: np.ndarray, corners: np.ndarray, offsets: np.ndarray, **more: object) -> Mesh:
@@ -83,9 +84,10 @@ def generate(family: str, count: int = 12, *, seed: int = 1, faces: int = 5000) 
                                     ("faces", faces, -2**31, 2**31)):
         if not least <= given_whole_number(what, value) < end:
             raise UsageError(f"{what}: {value!r} is not in {least} .. {end - 1}")
+    family_name = text_bytes(f"family: {family!r}", str(family))
     with _translated():
         return [_mesh(*mesh, labels=labels, name=name)
-                for name, mesh, labels in _core.generate(str(family), count, seed, faces)]
+                for name, mesh, labels in _core.generate(family_name, count, seed, faces)]
 
 
 def option_names() -> List[str]:

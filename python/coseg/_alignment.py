@@ -11,7 +11,7 @@ from ._errors import InputError, UsageError
 from ._shapes import given_whole_number
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Alignment:
     """What brings the shapes of a run to stand alike; rows are in the order of the shapes that were given.
 
@@ -52,6 +52,8 @@ class Alignment:
         shape = given_whole_number("shape", shape)
         if not 0 <= shape < len(self.scales):
             raise UsageError(f"shape: {shape} is not in 0 .. {len(self.scales) - 1}")
+        if np.ma.is_masked(points):
+            raise InputError("points are masked; leave them out")
         try:
             given = np.asarray(points, dtype=np.float64)
         except (TypeError, ValueError) as error:

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import inspect
 import json
-from typing import Any, Dict, List, Optional, Sequence, Union
+import re
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _core
 from ._errors import InputError, UsageError, translated
 from ._segmentation import Progress
-from ._shapes import (given_communicator, given_number, given_progress, given_switch, given_text,
-                      given_whole_number)
+from ._shapes import (given_communicator, given_number, given_parts, given_progress, given_switch,
+                      given_text, given_whole_number)
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Clusters:
     """Attributes:
         labels: (N,) cluster of each item, 0 .. K-1.
@@ -47,7 +50,7 @@ class Clusters:
 def _matrices(data: Any) -> List[np.ndarray]:
     views = data if isinstance(data, (list, tuple)) and len(data) and np.ndim(data[0]) == 2 else [data]
     matrices = []
-    for number, view in enumerate(views, 1):
+    for number, view in enumerate(views):
         if np.ma.is_masked(view):
             raise InputError(f"feature {number}: values are masked; leave the items out, or give values")
         matrix = np.asarray(view)
@@ -55,13 +58,15 @@ def _matrices(data: Any) -> List[np.ndarray]:
             raise InputError(f"feature {number}: give an array of N items x d numbers, not {matrix.dtype} of the shape "
                              f"{matrix.shape}")
         if len(matrix) != len(views[0]):
-            raise InputError(f"feature {number} has {len(matrix)} items, but feature 1 has {len(views[0])}")
+            raise InputError(f"feature {number} has {len(matrix)} items, but feature 0 has {len(views[0])}")
         matrices.append(np.ascontiguousarray(matrix, dtype=np.float64))
     return matrices
 
 
 def _numbers_of_groups(groups: Any) -> List[int]:
     """0, 1, ... for equal ones; a number that is none, which equals nothing, belongs to no group."""
+    if np.ma.is_masked(groups):
+        raise UsageError("groups: are masked; leave the items out, or give their groups")
     try:
         given = np.asarray(groups)
         if given.ndim != 1 or (given.dtype.kind in "fc" and not np.isfinite(given).all()):
@@ -69,6 +74,28 @@ def _numbers_of_groups(groups: Any) -> List[int]:
         return np.unique(given, return_inverse=True)[1].astype(np.intc).tolist()
     except (TypeError, ValueError) as error:
         raise UsageError(f"groups: give one for each item, finite and comparable with each other ({error})") from None
+
+
+def _check_scope(scope: str, groups: Sequence[int]) -> None:
+    if scope == "meshes" and len(set(groups)) < 2:
+        raise UsageError("scope: 'meshes' needs groups with at least two different ones; items of one group are not "
+                         "linked to each other")
+
+
+_OF_MATRICES = re.compile(r"the matrices: feature (\d+), column (\d+)(.*?)(?: \(features are the datasets.*)?", re.DOTALL)
+
+
+@contextlib.contextmanager
+def _items_named() -> Iterator[None]:
+    """Names what the program says of its file, whose columns are the items here, as NumPy counts."""
+    try:
+        yield
+    except InputError as error:
+        said = _OF_MATRICES.fullmatch(str(error))
+        if said is None:
+            raise
+        rest = said[3].replace("leave that column out", "leave that item out")
+        raise InputError(f"feature {int(said[1]) - 1}, item {int(said[2]) - 1} (both counted from 0){rest}") from None
 
 
 def cluster(features: Union[Any, Sequence[Any]], parts: int, *, groups: Optional[Any] = None,
@@ -81,7 +108,7 @@ def cluster(features: Union[Any, Sequence[Any]], parts: int, *, groups: Optional
     Args:
         features: (N, d) numbers >= 0, or a list of such matrices with the same N: one a feature ("view"). No
             item may be all 0 in a feature.
-        parts: K, 1 .. N.
+        parts: K, 1 .. N, and 1000 at most.
         groups: (N,) anything that can be compared: items of one group are not linked to each other.
         unit_items: whether every item of every feature is scaled to norm 1 first.
         alpha, beta, lambda_: weights of consistency over the features, of sparseness, and of squared sums.
@@ -89,11 +116,11 @@ def cluster(features: Union[Any, Sequence[Any]], parts: int, *, groups: Optional
         comm, progress: as in segment().
 
     Raises:
-        UsageError, InputError: feature and item are named, both counted from 1.
+        UsageError, InputError: feature and item (row) are named, both counted from 0.
     """
     matrices = _matrices(features)
     settings = _core.ClusterSettings()
-    settings.parts = given_whole_number("parts", parts)
+    settings.parts = given_parts(parts)
     if groups is not None:
         settings.groups = _numbers_of_groups(groups)
     given = {"unit_items": given_switch("unit_items", unit_items)}
@@ -104,15 +131,24 @@ def cluster(features: Union[Any, Sequence[Any]], parts: int, *, groups: Optional
         given[name] = given_whole_number(name, value)
     for name, value in (("variant", variant), ("scope", scope), ("affinity", affinity)):
         given[name] = given_text(name, value)
+    _check_scope(scope, settings.groups)
     for name, value in given.items():
         try:
             setattr(settings, name, value)
         except TypeError:
             raise UsageError(f"{name}: {value!r} is out of range") from None
-    with translated():
+    with _items_named(), translated():
         raw = _core.cluster(matrices, settings, given_communicator(comm), given_progress(progress))
     return Clusters(labels=raw["labels"], certificate=raw["certificate"], report=json.loads(raw["report"]),
                     _coefficients=raw["coefficients"], _affinity=raw["affinity"])
+
+
+def _known_settings(settings: Dict[str, Any]) -> Dict[str, Any]:
+    known = [name for name, one in inspect.signature(cluster).parameters.items() if one.kind is one.KEYWORD_ONLY]
+    for name in settings:
+        if name not in known:
+            raise UsageError(f"'{name}' is no parameter of SubspaceClustering, which has n_clusters, {', '.join(known)}")
+    return settings
 
 
 class SubspaceClustering:
@@ -126,14 +162,15 @@ class SubspaceClustering:
 
     def __init__(self, n_clusters: int = 8, **settings: Any):
         self.n_clusters = n_clusters
-        self.settings = settings
+        self.settings = _known_settings(settings)
 
     def get_params(self, deep: bool = True) -> Dict[str, Any]:
         return {"n_clusters": self.n_clusters, **self.settings}
 
     def set_params(self, **params: Any) -> "SubspaceClustering":
-        self.n_clusters = params.pop("n_clusters", self.n_clusters)
-        self.settings.update(params)
+        n_clusters = params.pop("n_clusters", self.n_clusters)
+        self.settings.update(_known_settings(params))
+        self.n_clusters = n_clusters
         return self
 
     def fit(self, X: Any, y: Any = None) -> "SubspaceClustering":

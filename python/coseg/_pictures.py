@@ -24,6 +24,22 @@ def _triangles(vertices: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -
     return vertices[rows[:, :3]], rows[:, 3]
 
 
+def _drawable(shape: int, vertices: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """The vertices (V, 3) of a mesh whose faces and coordinates can be drawn."""
+    vertices = np.asarray(vertices).reshape(-1, 3)
+    if not len(corners):
+        raise InputError(f"shape {shape}: the mesh has no faces")
+    wrong = np.flatnonzero((corners < 0) | (corners >= len(vertices)))
+    if len(wrong):
+        face = int(np.searchsorted(offsets, wrong[0], side="right")) - 1 if len(offsets) else wrong[0] // 3
+        raise InputError(f"shape {shape}: face {face} refers to vertex {corners[wrong[0]]}, but there are "
+                         f"{len(vertices)} vertices (counted from 0)")
+    endless = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    if len(endless):
+        raise InputError(f"shape {shape}: vertex {endless[0]} has a coordinate that is not finite")
+    return vertices
+
+
 @functools.lru_cache(maxsize=None)
 def _picture_class() -> type:
     """A figure that a notebook shows although pyplot, which would tell it how, is not imported. matplotlib is only
@@ -78,7 +94,9 @@ def draw(meshes: MeshesLike, labels: Union[Result, Iterable[Any]], *, columns: i
         faces = len(offsets) - 1 if len(offsets) else len(corners) // 3
         if len(part) not in (0, faces):
             raise InputError(f"shape {k - 1}: {len(part)} labels for {faces} faces")
-        points, face = _triangles(np.asarray(vertices).reshape(-1, 3)[:, order], corners, offsets)
+        points, face = _triangles(_drawable(k - 1, vertices, corners, offsets)[:, order], corners, offsets)
+        if not len(points):
+            raise InputError(f"shape {k - 1}: no face has three corners")
         normal = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
         color = (np.full((len(points), 3), 0.7) if not len(part)

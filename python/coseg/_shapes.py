@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import functools
+import keyword
 import math
 import numbers
 import operator
@@ -18,7 +19,7 @@ from ._errors import InputError, UsageError, translated
 
 #: A mesh file, or a mesh in memory: (vertices, faces), or an object with these attributes such as trimesh's.
 #: vertices: (V, 3) numbers in any unit. faces: (F, k) vertex numbers from 0, k at least 3, or F sequences of
-#: them of different lengths.
+#: them of different lengths, of which those with fewer than 3 corners have no area.
 MeshLike = Union[str, "os.PathLike[str]", Tuple[Any, Any], Any]
 
 #: A list of meshes, or a folder, file or "@LIST" that stands for the mesh files in it, sorted by name.
@@ -39,6 +40,14 @@ def path_bytes(path: Any) -> bytes:
         return os.fsencode(path)
     except TypeError:
         raise UsageError(f"{path!r} is no path") from None
+    except UnicodeEncodeError:
+        raise UsageError(f"{path!r} cannot be written as the name of a file") from None
+
+
+def _not_empty(what: str, given: bytes) -> bytes:
+    if not given:
+        raise UsageError(f"{what}: has an empty value; give one, or leave it out")
+    return given
 
 
 def given_list(what: str, given: Any) -> list:
@@ -143,7 +152,7 @@ def given_shapes(meshes: MeshesLike, names: Optional[Sequence[str]] = None) -> l
     shapes = []
     for index, mesh in enumerate(meshes):
         name = names[index] if names is not None else ""
-        key = os.fsencode(name)
+        key = text_bytes(f"names: {name!r}, of shape {index},", name)
         if _is_path(mesh):
             shapes.append((key, path_bytes(mesh), _NO_DOUBLES, _NO_INTS, _NO_INTS))
             continue
@@ -161,6 +170,13 @@ def given_whole_number(what: str, value: Any) -> int:
         return operator.index(value)
     except (TypeError, ValueError):
         raise UsageError(f"{what}: {value!r} is no whole number") from None
+
+
+def given_parts(value: Any) -> int:
+    parts = given_whole_number("parts", value)
+    if not 1 <= parts <= 1000:
+        raise UsageError(f"parts: {parts} is not in 1 .. 1000")
+    return parts
 
 
 def _is_number(value: Any) -> bool:
@@ -187,9 +203,17 @@ def given_switch(what: str, value: Any) -> bool:
     return bool(value)
 
 
+def text_bytes(what: str, value: str) -> bytes:
+    try:
+        return os.fsencode(value)
+    except UnicodeEncodeError:
+        raise UsageError(f"{what} has a character that is none") from None
+
+
 def given_text(what: str, value: Any) -> str:
     if not isinstance(value, str):
         raise UsageError(f"{what}: {value!r} is no text")
+    _not_empty(what, text_bytes(f"{what}: {value!r}", value))
     return value
 
 
@@ -214,8 +238,10 @@ def _numbers_text(what: str, value: Any) -> str:
 
 def _word_text(what: str, value: Any) -> Any:
     """Texts, paths, and numbers where the option may be one, as links=8."""
-    if isinstance(value, (str, os.PathLike)):
-        return os.fsencode(value)
+    if isinstance(value, os.PathLike):
+        return path_bytes(value)
+    if isinstance(value, str):
+        return _not_empty(what, text_bytes(f"{what}: {value!r}", value))
     return _number_text(what, value) if _is_number(value) else given_text(what, value)
 
 
@@ -236,6 +262,8 @@ def given_options(options: Mapping[str, Any]) -> list:
     for name, value in options.items():
         option = name.rstrip("_").replace("_", "-")
         kind = _option_kinds().get(option)
+        if kind is not None and name.endswith("_") and not keyword.iskeyword(name[:-1]):
+            raise UsageError(f"'{name}' is no option; did you mean '{option.replace('-', '_')}'?")
         if kind is None:
             given.append((option, ""))  # which the extension refuses, and says what was probably meant
         elif value is not None:
@@ -347,5 +375,11 @@ def given_labels(what: str, labels: Iterable[Any]) -> list:
     return rows
 
 
-def given_path(path: Any) -> bytes:
-    return b"" if path is None else path_bytes(path)
+def given_path(what: str, path: Any) -> bytes:
+    return b"" if path is None else _not_empty(what, path_bytes(path))
+
+
+def given_folder_of_run(what: str, folder: Any) -> bytes:
+    if folder is None:
+        raise UsageError(f"{what}: give the folder of a run, not None")
+    return given_path(what, folder)

@@ -1,9 +1,11 @@
 """Tests of the Python module, run by python_test.sh, which says where the program (COSEG) is and where to write."""
 
+import copy
 import inspect
 import json
 import os
 import pathlib
+import pickle
 import shutil
 import signal
 import subprocess
@@ -99,7 +101,7 @@ def test_files_folders_and_mixtures_have_the_labels_of_the_program(run, tables):
     labels = WORK / f"mixed/labels/{run[1][2]}.seg"
     labels.write_text(labels.read_text() + "\n")
     assert [warning.split(":")[0] for warning in coseg.Result.load(WORK / "mixed").warnings] == [str(report), str(labels)]
-    with pytest.raises(coseg.Error, match="not empty") as error:
+    with pytest.raises(coseg.Error, match="not empty.*with replace=True$") as error:
         coseg.segment(mixed, 2, names=run[1], out=WORK / "mixed", **QUICK)
     assert error.value.code == 4
 
@@ -143,6 +145,8 @@ def test_assign_by_result_and_by_folder_are_the_program_s(run, tables):
         coseg.assign(new, coseg.segment(tables[:2], 2, keep_model=False, **TINY))
     with pytest.raises(coseg.InputError, match="is no run"):
         coseg.assign(new, WORK / "set")
+    with pytest.raises(coseg.UsageError, match=r"it is of assign\(\); give the result of segment"):
+        coseg.assign(new, found)
 
 
 def test_score_is_that_of_the_program(run, tables):
@@ -200,7 +204,7 @@ def test_clusters_have_the_objective_that_they_certify():
                        (dict(parts=2, alpha=float("nan")), "alpha"), (dict(parts=2, groups=[1]), "groups")):
         with pytest.raises((coseg.UsageError, coseg.InputError), match=words):
             coseg.cluster(views, **bad)
-    with pytest.raises(coseg.InputError, match="feature 1"):
+    with pytest.raises(coseg.InputError, match="feature 0"):
         coseg.cluster(-views[0], 3)
 
 
@@ -232,11 +236,19 @@ def test_clusters_have_the_objective_that_they_certify():
     (dict(groups=[1, 2, "a", None]), "groups: give one for each item|groups"),
     (dict(progress=5), "progress: 5 is no function"),
     (dict(comm=[0]), "comm: give a communicator"),
-    (dict(features=np.ma.masked_less(np.eye(4) + 1, 1.5)), "feature 1: values are masked"),
-    (dict(features=np.full((4, 2), np.nan)), "feature 1"),
-    (dict(features=[["a", "b"]] * 4), "feature 1: give an array"),
-    (dict(features=[np.ones((4, 2)), np.ones((3, 2))]), "feature 2 has 3 items"),
-    (dict(features=[]), "feature 1"),
+    (dict(features=np.ma.masked_less(np.eye(4) + 1, 1.5)), "feature 0: values are masked"),
+    (dict(features=np.full((4, 2), np.nan)), r"^feature 0, item 0 \(both counted from 0\) holds a value that is not a finite number"),
+    (dict(features=[np.ones((4, 2)), np.diag([1, 1, -1, 1])]), r"^feature 1, item 2 \(both counted from 0\) holds the negative value"),
+    (dict(features=np.diag([1, 0, 1, 1])), r"^feature 0, item 1 \(.*\) is all zeros .*; leave that item out$"),
+    (dict(features=[["a", "b"]] * 4), "feature 0: give an array"),
+    (dict(parts=2 ** 31), "parts: 2147483648 is not in 1 .. 1000"),
+    (dict(scope="meshes"), "scope: 'meshes' needs groups"),
+    (dict(scope="meshes", groups=[1, 1, 1, 1]), "scope: 'meshes' needs groups"),
+    (dict(groups=np.ma.masked_equal([1, 2, 3, 4], 3)), "groups: are masked"),
+    (dict(variant=""), "variant: has an empty value"),
+    (dict(affinity="\ud800"), "affinity: .* has a character that is none"),
+    (dict(features=[np.ones((4, 2)), np.ones((3, 2))]), "feature 1 has 3 items"),
+    (dict(features=[]), "feature 0"),
 ])
 def test_bad_arguments_of_cluster_are_exceptions(arguments, words):
     given = {"features": np.eye(4) + 1, "parts": 2, **arguments}
@@ -322,6 +334,8 @@ def test_alignment(run, tables):
             called.apply(shape, tables[0].vertices)
     with pytest.raises(coseg.UsageError, match="shape: 1.5 is no whole number"):
         called.apply(1.5, tables[0].vertices)
+    with pytest.raises(coseg.InputError, match="points are masked"):
+        called.apply(0, np.ma.masked_greater(tables[0].vertices, 0))
     for points in ([1, 2, 3], np.ones((4, 2)), "abc", [[1, 2, 3], [4]]):
         with pytest.raises(coseg.InputError, match="the points must be N x 3 numbers"):
             called.apply(0, points)
@@ -349,6 +363,103 @@ def test_bad_shapes_can_be_set_aside():
     assert list(result.set_aside) == [0] and "shape 0: face 5 refers to vertex 8" in result.set_aside[0]
     assert result.labels[0] is None and len(result.labels[1]) == 6 and np.isnan(result.part_areas[0]).all()
     assert any("face 5" in warning for warning in result.warnings)
+
+
+def test_a_loaded_result_has_the_shapes_that_were_set_aside():
+    bad = (CUBE, QUADS[:5] + [[1, 5, 7, 8]])
+    called = coseg.segment([(CUBE, QUADS), bad, (CUBE * 2, CAP), (CUBE * 3, QUADS)], 2, names=["d", "c", "b", "a"], strict=False,
+                           out=WORK / "aside", sheet=False, html=False, **TINY)
+    loaded = coseg.Result.load(WORK / "aside")
+    assert loaded.names == called.names == ["d", "c", "b", "a"]
+    assert loaded.set_aside == called.set_aside and list(loaded.set_aside) == [1]
+    assert set(loaded.warnings) == {warning for warning in called.warnings if "parts are asked for" not in warning}
+    assert f"set aside: {called.set_aside[1]}" in loaded.warnings
+    for mine, other in zip(loaded.labels + loaded.patches, called.labels + called.patches):
+        assert np.array_equal(mine, other)
+    assert np.array_equal(loaded.part_areas, called.part_areas, equal_nan=True)
+    assert np.array_equal(loaded.alignment.matrices, called.alignment.matrices, equal_nan=True)
+    assert np.isnan(loaded.alignment.scales[1]) and not loaded.alignment.found[1]
+    (WORK / "bad file.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n")
+    coseg.segment([(CUBE, QUADS), (CUBE, QUADS), WORK / "bad file.off"], 2, strict=False, out=WORK / "aside", replace=True,
+                  sheet=False, html=False, **TINY)
+    loaded = coseg.Result.load(WORK / "aside")
+    assert loaded.names == ["shape_0000", "shape_0001", "bad file"] and list(loaded.set_aside) == [2]
+
+
+@pytest.mark.parametrize("kind", ["labels", "patches"])
+@pytest.mark.parametrize("line, words", [
+    ("7777", "face 2 has 7777, which the run did not have"),
+    ("-5", "face 2 has -5, which the run did not have"),
+    ("4294967297", "face 2 has 4294967297, which the run did not have"),
+    ("0.5", "a label file has one integer a line, but this line has '0.5'"),
+    ("nan", "a label file has one integer a line"),
+    ("1e300", "a label file has one integer a line"),
+    ("1 1", "a label file has one integer a line"),
+    ("1_0", "a label file has one integer a line"),
+    ("", "labels for"),
+])
+def test_loading_refuses_labels_that_cannot_be(run, kind, line, words):
+    folder = WORK / "spoilt"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(run[0], folder)
+    path = folder / kind / f"{run[1][1]}.seg"
+    lines = path.read_text().split("\n")
+    path.write_text("\n".join(lines[:2] + [line] + lines[3:]))
+    with pytest.raises(coseg.InputError, match=words) as error:
+        coseg.Result.load(folder)
+    assert str(error.value).startswith(str(path))
+
+
+@pytest.mark.parametrize("change", [lambda report: [], lambda report: {**report, "format": 3},
+                                    lambda report: {k: v for k, v in report.items() if k != "optimisation"},
+                                    lambda report: {**report, "meshes": [1]}, lambda report: {**report, "meshes": []},
+                                    lambda report: {**report, "set_aside": [{"path": "shape 77", "reason": ""}]}])
+def test_loading_refuses_reports_of_something_else(run, change):
+    folder = WORK / "other_report"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(run[0], folder)
+    report = json.loads((folder / "report.json").read_text())
+    (folder / "report.json").write_text(json.dumps(change(report)))
+    if "format" in change(report) and change(report).get("set_aside"):
+        assert len(coseg.Result.load(folder).names) == 5
+        return
+    with pytest.raises(coseg.InputError, match="report.json"):
+        coseg.Result.load(folder)
+
+
+def test_results_can_be_pickled_copied_and_compared():
+    shapes = [(CUBE, QUADS), (CUBE * 2, CAP)]
+    result = coseg.segment(shapes, 2, **TINY)
+    again = pickle.loads(pickle.dumps(result))
+    assert again != result and result == result and len({result, again}) == 2
+    assert all(np.array_equal(a, b) for a, b in zip(again.labels, result.labels)) and again.report == result.report
+    with pytest.raises(coseg.UsageError, match="its model was left out when it was pickled"):
+        coseg.assign(shapes, again)
+    kept = coseg.segment(shapes, 2, out=WORK / "pickled", sheet=False, html=False, **TINY)
+    wanted = coseg.assign(shapes, result).labels
+    for other in (copy.copy(result), copy.deepcopy(result), pickle.loads(pickle.dumps(kept))):
+        assert all(np.array_equal(a, b) for a, b in zip(coseg.assign(shapes, other).labels, wanted))
+    assert copy.deepcopy(result).labels[0] is not result.labels[0]
+    matrices = [coseg.cluster(np.eye(4) + 1, 2) for _ in range(2)]
+    meshes = coseg.generate("table", 2, faces=500)
+    descriptions = coseg.describe(shapes, geodesic_samples=10)
+    for first, second in (matrices, meshes, descriptions, [result.alignment, again.alignment]):
+        assert first != second and first == first  # pylint: disable=comparison-with-itself
+        pickle.loads(pickle.dumps(first))
+
+
+def test_arrays_of_a_mesh():
+    for faces in (np.array(QUADS), QUADS, [np.array(face) for face in QUADS]):
+        _, corners, offsets = coseg.Mesh(CUBE, faces).arrays()
+        assert corners.tolist() == sum(QUADS, []) and offsets.tolist() == list(range(0, 25, 4))
+    for faces in ([], np.empty((0, 3), dtype=int), np.empty(0, dtype=int)):
+        _, corners, offsets = coseg.Mesh(CUBE, faces).arrays()
+        assert len(corners) == 0 and offsets.tolist() == [0]
+
+
+def test_faces_with_fewer_than_three_corners_keep_their_place():
+    result = coseg.segment([(CUBE, QUADS + [[0], [1, 2]]), (CUBE, QUADS)], 2, **TINY)
+    assert len(result.labels[0]) == 8
 
 
 @pytest.mark.parametrize("arguments, words", [
@@ -413,7 +524,18 @@ def test_bad_shapes_can_be_set_aside():
     (dict(choose=[False]), r"choose: \[False\] is neither True nor False"),
     (dict(remesh=["never"]), r"remesh: \['never'\] is no text"),
     (dict(remesh=True), "remesh: True is no text"),
-    (dict(remesh=""), "remesh"),
+    (dict(remesh=""), "remesh: has an empty value; give one, or leave it out"),
+    (dict(examples=""), "examples: has an empty value"),
+    (dict(constraints="", seed=3), "constraints: has an empty value"),
+    (dict(preset=""), "preset: has an empty value"),
+    (dict(out=""), "out: has an empty value"),
+    (dict(state=""), "state: has an empty value"),
+    (dict(out="\ud800"), "cannot be written as the name of a file"),
+    (dict(names=["a", "\ud800"]), "names: .*, of shape 1, has a character that is none"),
+    (dict(preset="\ud800"), "preset: .* has a character that is none"),
+    (dict(meshes=["\ud800.off", (CUBE, QUADS)]), "cannot be written as the name of a file"),
+    (dict(patches__=10), "'patches__' is no option; did you mean 'patches'"),
+    (dict(patches_=10), "'patches_' is no option; did you mean 'patches'"),
     (dict(remesh="never\0"), "remesh"),
     (dict(preset="\udcff"), "preset"),
     (dict(links=[8]), r"links: \[8\] is no text"),
@@ -441,7 +563,19 @@ def test_bad_arguments_are_exceptions(arguments, words):
 @pytest.mark.parametrize("call, words", [
     (lambda: coseg.assign([(CUBE, QUADS)], 5), "5 is no path"),
     (lambda: coseg.Result.load(5), "5 is no path"),
+    (lambda: coseg.Result.load(None), "folder: give the folder of a run, not None"),
+    (lambda: coseg.Result.load(""), "folder: has an empty value"),
+    (lambda: coseg.assign([(CUBE, QUADS)], None), "to: give the folder of a run, not None"),
     (lambda: coseg.load_mesh(5), "5 is no path"),
+    (lambda: coseg.load_mesh("\ud800"), "cannot be written as the name of a file"),
+    (lambda: coseg.generate("\ud800"), "has a character that is none"),
+    (lambda: coseg.SubspaceClustering(foo=1), "'foo' is no parameter of SubspaceClustering"),
+    (lambda: coseg.SubspaceClustering().set_params(n_clusters=3, foo=1), "'foo' is no parameter of SubspaceClustering"),
+    (lambda: coseg.draw([(CUBE, QUADS), (CUBE, CAP[:6] + [[1, 7, 8]])], [None] * 2), "shape 1: face 6 refers to vertex 8, but there are 8"),
+    (lambda: coseg.draw([(CUBE, [[0, 1, 2], [0, 1, -1]])], [None]), "shape 0: face 1 refers to vertex -1"),
+    (lambda: coseg.draw([(np.where(CUBE == 1, np.nan, CUBE), QUADS)], [None]), "shape 0: vertex 1 has a coordinate that is not finite"),
+    (lambda: coseg.draw([(CUBE, [])], [None]), "shape 0: the mesh has no faces"),
+    (lambda: coseg.draw([(CUBE, [[0, 1], [2]])], [None]), "shape 0: no face has three corners"),
     (lambda: coseg.score([(CUBE, QUADS)], None, [[1] * 6]), "labels: give a list"),
     (lambda: coseg.score([(CUBE, QUADS)], [[1] * 5], [[1] * 6]), "shape 0: 5 labels for 6 faces"),
     (lambda: coseg.generate(5), "no family '5'"),
