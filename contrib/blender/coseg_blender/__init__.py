@@ -20,25 +20,33 @@ def part_materials(run):
     """One material for each part, which all shapes share."""
     materials = []
     for name, color in zip(run.names, run.colors):
-        material = bpy.data.materials.new(name)
+        material = bpy.data.materials.new(run_folder.readable(name))
         material.diffuse_color = (*(c / 255.0 for c in color), 1.0)
         materials.append(material)
     return materials
 
 
 def shape_object(shape, run, mark, materials):
-    """An object with its faces in the order of the file."""
-    mesh = bpy.data.meshes.new(shape.name)
-    mesh.from_pydata(shape.vertices, [], shape.faces)
-    obj = bpy.data.objects.new(shape.name, mesh)
+    """An object with its faces in the order of the file.
+
+    Faces that Blender cannot hold are left out with their labels; the attribute coseg_face has the number that each face
+    has in the file and in its labels, from 0.
+    """
+    kept = run_folder.faces_that_blender_holds(shape.faces)
+    faces, parts = [shape.faces[k] for k in kept], [shape.parts[k] for k in kept]
+    name = run_folder.readable(shape.name)
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(shape.vertices, [], faces)
+    mesh.attributes.new("coseg_face", "INT", "FACE").data.foreach_set("value", kept)
+    obj = bpy.data.objects.new(name, mesh)
     if mark == "MATERIALS":
         for material in materials:
             mesh.materials.append(material)
-        mesh.polygons.foreach_set("material_index", shape.parts)
+        mesh.polygons.foreach_set("material_index", parts)
     else:
-        for part, name in enumerate(run.names):
-            corners = {corner for face, own in zip(shape.faces, shape.parts) if own == part for corner in face}
-            obj.vertex_groups.new(name=name).add(sorted(corners), 1.0, "REPLACE")
+        for part, part_name in enumerate(run.names):
+            corners = {corner for face, own in zip(faces, parts) if own == part for corner in face}
+            obj.vertex_groups.new(name=run_folder.readable(part_name)).add(sorted(corners), 1.0, "REPLACE")
     mesh.update()
     return obj
 
@@ -50,12 +58,10 @@ def import_run(context, folder, mark="MATERIALS", align=True, scale=True):
     collection = bpy.data.collections.new("coseg")
     context.scene.collection.children.link(collection)
     objects = [shape_object(shape, run, mark, materials) for shape in run.shapes]
-    sizes = [max(max(obj.dimensions), 1e-12) for obj in objects]
-    largest = 1.0 if scale else max(sizes)
-    for obj, shape, size, (x, y) in zip(objects, run.shapes, sizes, run_folder.grid_places([largest] * len(objects))):
-        turn = Matrix(shape.rotation).to_4x4() if align else Matrix.Identity(4)
-        enlarged = Matrix.Scale(1.0 / size if scale else 1.0, 4)
-        obj.matrix_world = Matrix.Translation((x, y, 0.0)) @ enlarged @ turn
+    rotations = [shape.rotation if align else run_folder.IDENTITY for shape in run.shapes]
+    boxes = [run_folder.bounds(shape.vertices, shape.faces, turn) for shape, turn in zip(run.shapes, rotations)]
+    for obj, turn, (size, place) in zip(objects, rotations, run_folder.side_by_side(boxes, scale)):
+        obj.matrix_world = Matrix.Translation(place) @ Matrix.Scale(size, 4) @ Matrix(turn).to_4x4()
         collection.objects.link(obj)
     return objects
 
@@ -94,7 +100,7 @@ class ImportRun(bpy.types.Operator):
         try:
             objects = import_run(context, self.directory, self.mark, self.align, self.scale)
         except run_folder.RunError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, run_folder.readable(str(error)))
             return {"CANCELLED"}
         self.report({"INFO"}, f"{len(objects)} shapes")
         return {"FINISHED"}
@@ -116,7 +122,7 @@ class ExportCollection(bpy.types.Operator):
         try:
             export_objects(context, self.directory, context.selected_objects)
         except (OSError, run_folder.RunError) as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, run_folder.readable(str(error)))
             return {"CANCELLED"}
         self.report({"INFO"}, run_folder.run_command(self.directory, self.parts))
         return {"FINISHED"}

@@ -11,6 +11,12 @@ from dataclasses import dataclass, field
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
+#: Of struct, by what a header of PLY calls them.
+NUMBERS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d",
+           "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i", "uint32": "I", "float32": "f",
+           "float64": "d"}
+
+
 class RunError(Exception):
     """A sentence for the user: a folder or a file that cannot be used."""
 
@@ -39,11 +45,16 @@ def exact_name(entry):
     return os.fsdecode(bytes.fromhex(entry["name_bytes"])) if "name_bytes" in entry else entry["name"]
 
 
+def readable(text):
+    """Text that Blender takes, which knows nothing but UTF-8: what is none is shown as U+FFFD."""
+    return os.fsencode(text).decode("utf-8", "replace")
+
+
 def read_json(path):
     try:
         with open(path, encoding="utf-8") as file:
             return json.load(file)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise RunError(f"{path}: cannot be read ({error}); choose the folder that coseg run was given with --out") from error
 
 
@@ -53,9 +64,12 @@ def read_names(folder, parts):
     path = os.path.join(folder, "names.txt")
     if not os.path.exists(path):
         return names
-    with open(path, encoding="utf-8-sig") as file:
-        lines = [line.split() for line in file if line.strip()]
-    numbered = all(len(words) > 1 and words[0].isdigit() for words in lines)
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            lines = [line.split() for line in file if line.strip()]
+    except (OSError, ValueError) as error:
+        raise RunError(f"{path}: cannot be read as names in UTF-8 ({error}); correct it or remove it") from error
+    numbered = all(len(words) > 1 and words[0].isdecimal() for words in lines)
     for row, words in enumerate(lines):
         part = int(words[0]) if numbered else row
         if part < parts:
@@ -63,7 +77,8 @@ def read_names(folder, parts):
     return names
 
 
-def read_labels(path, count):
+def read_labels(path, count, parts):
+    """The part of each of so many faces, 0 .. parts - 1."""
     try:
         with open(path, encoding="ascii") as file:
             labels = [int(word) for word in file.read().split()]
@@ -71,7 +86,42 @@ def read_labels(path, count):
         raise RunError(f"{path}: cannot be read ({error})") from error
     if len(labels) != count:
         raise RunError(f"{path}: has {len(labels)} labels for {count} faces")
+    for face, label in enumerate(labels):
+        if not 0 <= label < parts:
+            raise RunError(f"{path}: face {face} has {label}, which the run did not have; correct the file, or run coseg "
+                           "run again")
     return labels
+
+
+def ply_elements(path, header):
+    """[(name, count, [(name of a property, type)])]; the type of a list is (type of its length, type of its items)."""
+    elements = []
+    try:
+        for words in map(str.split, header):
+            if words[:1] == ["element"]:
+                elements.append((words[1], int(words[2]), []))
+            elif words[:2] == ["property", "list"]:
+                elements[-1][2].append((words[4], (NUMBERS[words[2]], NUMBERS[words[3]])))
+            elif words[:1] == ["property"]:
+                elements[-1][2].append((words[2], NUMBERS[words[1]]))
+    except (IndexError, KeyError, ValueError) as error:
+        raise RunError(f"{path}: has a header that is not of coseg run ({error!r})") from error
+    return elements
+
+
+def ply_row(data, at, properties):
+    """The values of one vertex or face by name, and where the next one begins."""
+    row = {}
+    for name, kind in properties:
+        if isinstance(kind, tuple):
+            (length,) = struct.unpack_from("<" + kind[0], data, at)
+            at += struct.calcsize("<" + kind[0])
+            kind = f"{length}{kind[1]}"
+            row[name] = struct.unpack_from("<" + kind, data, at)
+        else:
+            (row[name],) = struct.unpack_from("<" + kind, data, at)
+        at += struct.calcsize("<" + kind)
+    return row, at
 
 
 def read_ply(path):
@@ -79,54 +129,100 @@ def read_ply(path):
     try:
         with open(path, "rb") as file:
             data = file.read()
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise RunError(f"{path}: cannot be read ({error})") from error
     end = data.find(b"end_header\n")
     header = data[:max(end, 0)].decode("ascii", "replace").split("\n")
     if end < 0 or "format binary_little_endian 1.0" not in header:
         raise RunError(f"{path}: is not a mesh that coseg run has written")
-    count = {words[1]: int(words[2]) for words in map(str.split, header) if words[:1] == ["element"]}
-    number = "d" if "property double x" in header else "f"
-    tail = struct.Struct("<3B" + ("f" if "property float confidence" in header else ""))
     at = end + len(b"end_header\n")
+    rows = {"vertex": [], "face": []}
     try:
-        flat = struct.unpack_from(f"<{3 * count['vertex']}{number}", data, at)
-        at += struct.calcsize(f"<{3 * count['vertex']}{number}")
-        faces, colors = [], []
-        for _ in range(count["face"]):
-            corners = data[at]
-            faces.append(struct.unpack_from(f"<{corners}i", data, at + 1))
-            at += 1 + 4 * corners
-            colors.append(tail.unpack_from(data, at)[:3])
-            at += tail.size
-    except (struct.error, IndexError, KeyError) as error:
+        for element, count, properties in ply_elements(path, header):
+            for _ in range(count):
+                row, at = ply_row(data, at, properties)
+                rows[element].append(row)
+        vertices = [(row["x"], row["y"], row["z"]) for row in rows["vertex"]]
+        faces = [row["vertex_indices"] for row in rows["face"]]
+        colors = [(row["red"], row["green"], row["blue"]) for row in rows["face"]]
+    except (struct.error, MemoryError) as error:
         raise RunError(f"{path}: ends too early") from error
-    return [flat[k:k + 3] for k in range(0, len(flat), 3)], faces, colors
+    except KeyError as error:
+        raise RunError(f"{path}: is not a mesh that coseg run has written, as to {error}") from error
+    for number, face in enumerate(faces):
+        if face and not 0 <= min(face) <= max(face) < len(vertices):
+            raise RunError(f"{path}: face {number} refers to a vertex that is none of the {len(vertices)}")
+    return vertices, faces, colors
 
 
 def read_rotations(folder):
     path = os.path.join(folder, "alignment.json")
     if not os.path.exists(path):
         return {}
-    return {exact_name(shape): tuple(map(tuple, shape["rotation"])) for shape in read_json(path)["shapes"]}
+    raw = read_json(path)
+    try:
+        return {exact_name(shape): tuple(tuple(float(x) for x in row) for row in shape["rotation"])
+                for shape in raw["shapes"]}
+    except (KeyError, TypeError, ValueError) as error:
+        raise RunError(f"{path}: is not the alignment of a run ({error!r})") from error
+
+
+def read_report(folder):
+    """The number of parts, and the names of the shapes."""
+    report = read_json(os.path.join(folder, "report.json"))
+    if not isinstance(report, dict) or not str(report.get("format", "")).startswith("coseg report"):
+        raise RunError(f"{folder}: report.json is not that of coseg run")
+    try:
+        return len(report["partition"]["part_area"]), [exact_name(entry) for entry in report["meshes"]]
+    except (KeyError, TypeError, ValueError) as error:
+        raise RunError(f"{folder}: report.json is not that of a finished run ({error!r})") from error
 
 
 def read_run(folder):
     """All shapes of a finished run, with parts, names and colours."""
-    report = read_json(os.path.join(folder, "report.json"))
-    if not str(report.get("format", "")).startswith("coseg report"):
-        raise RunError(f"{folder}: report.json is not that of coseg run")
-    count = len(report["partition"]["part_area"])
+    count, names = read_report(folder)
     run = Run(folder, read_names(folder, count), [(160, 160, 160)] * count)
     rotations = read_rotations(folder)
-    for entry in report["meshes"]:
-        name = exact_name(entry)
+    for name in names:
         vertices, faces, colors = read_ply(os.path.join(folder, "ply", name + ".ply"))
-        parts = read_labels(os.path.join(folder, "labels", name + ".seg"), len(faces))
+        parts = read_labels(os.path.join(folder, "labels", name + ".seg"), len(faces), count)
         for part, color in zip(parts, colors):
             run.colors[part] = color
         run.shapes.append(Shape(name, vertices, faces, parts, rotations.get(name, IDENTITY)))
     return run
+
+
+def faces_that_blender_holds(faces):
+    """The numbers of the faces with three corners at least, all different, and not those of an earlier face.
+
+    Blender crashes by others, as by faces of one corner.
+    """
+    numbers, seen = [], set()
+    for number, face in enumerate(faces):
+        corners = frozenset(face)
+        if len(face) >= 3 and len(corners) == len(face) and corners not in seen:
+            seen.add(corners)
+            numbers.append(number)
+    return numbers
+
+
+def bounds(vertices, faces, rotation):
+    """The lowest and the highest coordinates of the turned shape, without vertices that are in no face."""
+    used = {corner for face in faces for corner in face} or range(len(vertices))
+    turned = [tuple(sum(r * x for r, x in zip(row, vertices[k])) for row in rotation) for k in used]
+    if not turned:
+        return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    return tuple(map(min, zip(*turned))), tuple(map(max, zip(*turned)))
+
+
+def side_by_side(boxes, scale):
+    """(enlargement, translation) of each turned shape with these (lowest, highest) coordinates, which sets the middle of
+    its box on a place of its own in a grid; with `scale` all boxes become of size 1."""
+    sizes = [max(max(h - l for l, h in zip(low, high)), 1e-12) for low, high in boxes]
+    enlargements = [1.0 / size if scale else 1.0 for size in sizes]
+    places = grid_places([1.0 if scale else size for size in sizes])
+    return [(by, tuple(place - by * (l + h) / 2 for place, l, h in zip((*at, 0.0), low, high)))
+            for by, at, (low, high) in zip(enlargements, places, boxes)]
 
 
 def grid_places(sizes):

@@ -52,7 +52,44 @@ ply = work + "/run/ply/peanut 3.ply"
 whole = open(ply, "rb").read()
 open(ply, "wb").write(whole[:-5])
 assert "ends too early" in sentence(lambda: run_folder.read_run(work + "/run"))
+# A count of corners of four bytes, as coseg writes it where a face has more than 255.
+body = whole.index(b"end_header\n") + len(b"end_header\n") + 12 * len(run.shapes[2].vertices)
+wide = whole[:body].replace(b"list uchar int", b"list int int")
+for k in range(len(run.shapes[2].faces)):
+    row = whole[body + k * 20:body + (k + 1) * 20]
+    wide += bytes([row[0], 0, 0, 0]) + row[1:]
+open(ply, "wb").write(wide)
+assert run_folder.read_run(work + "/run").shapes[2].faces == run.shapes[2].faces
+open(ply, "wb").write(wide.replace(b"list int int", b"list long int"))
+assert "has a header that is not of coseg run" in sentence(lambda: run_folder.read_run(work + "/run"))
+open(ply, "wb").write(whole[:body + 1] + b"\xff" * 4 + whole[body + 5:])
+assert "face 0 refers to a vertex that is none" in sentence(lambda: run_folder.read_run(work + "/run"))
 open(ply, "wb").write(whole)
+
+def with_text(name, change, words):
+    """The sentence where a file of the run is changed so."""
+    path = f"{work}/run/{name}"
+    kept = open(path, "rb").read()
+    open(path, "wb").write(change(kept))
+    said = sentence(lambda: run_folder.read_run(work + "/run"))
+    open(path, "wb").write(kept)
+    assert words in said and name.split("/")[-1] in said, said
+
+with_text("names.txt", lambda text: b"\xff\xfe" + text, "cannot be read as names in UTF-8")
+for label in (b"2", b"-1"):
+    with_text("labels/peanut 2.seg", lambda text: label + text[1:], f"face 0 has {label.decode()}, which the run did not have")
+with_text("report.json", lambda text: text.replace(b'"partition"', b'"portion"', 1).replace(b'"partition"', b'"portion"'), "'partition'")
+with_text("report.json", lambda text: b"[]", "is not that of coseg run")
+assert run_folder.readable("caf\udce9") == "caf\ufffd"
+assert run_folder.faces_that_blender_holds([(0, 1, 2), (3,), (), (0, 1), (1, 2, 1), (2, 0, 1), (0, 1, 2, 3)]) == [0, 6]
+quarter = ((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+corners = [(100.0, 50.0, 7.0), (104.0, 50.0, 7.0), (104.0, 52.0, 8.0), (900.0, 0.0, 0.0)]
+assert run_folder.bounds(corners, [(0, 1, 2)], quarter) == ((-52.0, 100.0, 7.0), (-50.0, 104.0, 8.0))
+boxes = [((0.0, 0.0, 0.0), (4.0, 1.0, 1.0)), ((100.0, 50.0, 7.0), (102.0, 51.0, 8.0))]
+for scale, wanted in ((False, [(1.0, (-2.0, -0.5, -0.5)), (1.0, (-101.0, -4.8 - 50.5, -7.5))]),
+                      (True, [(0.25, (-0.5, -0.125, -0.125)), (0.5, (-50.5, -1.2 - 25.25, -3.75))])):
+    for (by, at), (other, there) in zip(run_folder.side_by_side(boxes, scale), wanted):
+        assert by == other and max(abs(a - b) for a, b in zip(at, there)) < 1e-9, (by, at)
 END
 python3 "$work/plain.py" "$addon" "$work" || fail "the part of the add-on that needs no Blender"
 "$COSEG" check "$work/plain" >/dev/null || fail "coseg refuses what the add-on has exported"
@@ -85,6 +122,27 @@ assert all([g.name for g in o.vertex_groups] == ["body", "waist"] for o in group
 first = groups[0]
 corners = {c for p, l in zip(first.data.polygons, map(int, open(f"{work}/run/labels/peanut 1.seg"))) if l == 1 for c in p.vertices}
 assert {v.index for v in first.data.vertices if any(g.group == 1 for g in v.groups)} == corners
+# Shapes of other origins stand side by side, and faces that Blender does not hold are left out with their labels.
+from coseg_blender import run_folder
+far = run_folder.Shape("far\udce9", [(100.0 + x, 100.0 * y, z) for x, y, z in ((0, 1, 0), (1, 1, 0), (1, 1.01, 0), (0, 1, 1))],
+                       [(0, 1, 2), (3,), (1, 1, 2), (0, 1, 3), (2, 1, 0), (0, 2, 3)], [0, 1, 1, 1, 1, 0])
+near = run_folder.Shape("near", [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)], [(0, 1, 2)], [1])
+coseg_blender.run_folder.read_run = lambda folder: run_folder.Run(folder, ["body", "waist"], [(1, 2, 3)] * 2, [far, near])
+for scale in (False, True):
+    placed = coseg_blender.import_run(bpy.context, "", scale=scale)
+    bpy.context.view_layer.update()
+    assert placed[0].name.startswith("far\ufffd"), placed[0].name
+    assert [p.material_index for p in placed[0].data.polygons] == [0, 1, 0]
+    assert [one.value for one in placed[0].data.attributes["coseg_face"].data] == [0, 3, 5]
+    assert not placed[0].data.validate()
+    points = [[o.matrix_world @ v.co for v in o.data.vertices] for o in placed]
+    assert max(abs(x) for o in points for v in o for x in v) < 4, "a shape is away from its place"
+    assert min(v.y for v in points[0]) > max(v.y for v in points[1]) + 0.05, "shapes stand in each other"
+bpy.context.view_layer.objects.active = placed[0]
+bpy.ops.object.mode_set(mode="EDIT")
+bpy.ops.mesh.select_all(action="SELECT")
+bpy.ops.mesh.normals_make_consistent()
+bpy.ops.object.mode_set(mode="OBJECT")
 coseg_blender.unregister()
 print("inside: ok")
 END
