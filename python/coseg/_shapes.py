@@ -37,11 +37,14 @@ def _is_path(value: Any) -> bool:
 def path_bytes(path: Any) -> bytes:
     """A path as the extension takes it: names of files need not be UTF-8."""
     try:
-        return os.fsencode(path)
+        encoded = os.fsencode(path)
     except TypeError:
         raise UsageError(f"{path!r} is no path") from None
     except UnicodeEncodeError:
         raise UsageError(f"{path!r} cannot be written as the name of a file") from None
+    if not encoded:
+        raise UsageError(f"{path!r} is no path, as it is empty")
+    return encoded
 
 
 def _not_empty(what: str, given: bytes) -> bytes:
@@ -263,7 +266,8 @@ def given_options(options: Mapping[str, Any]) -> list:
         option = name.rstrip("_").replace("_", "-")
         kind = _option_kinds().get(option)
         if kind is not None and name.endswith("_") and not keyword.iskeyword(name[:-1]):
-            raise UsageError(f"'{name}' is no option; did you mean '{option.replace('-', '_')}'?")
+            meant = option.replace("-", "_")
+            raise UsageError(f"'{name}' is no option; did you mean '{meant + '_' * keyword.iskeyword(meant)}'?")
         if kind is None:
             given.append((option, ""))  # which the extension refuses, and says what was probably meant
         elif value is not None:
@@ -376,7 +380,10 @@ def given_labels(what: str, labels: Iterable[Any]) -> list:
 
 
 def given_path(what: str, path: Any) -> bytes:
-    return b"" if path is None else _not_empty(what, path_bytes(path))
+    """Of an argument that may be left out."""
+    if path is None:
+        return b""
+    return _not_empty(what, b"") if isinstance(path, (str, bytes)) and not path else path_bytes(path)
 
 
 def given_folder_of_run(what: str, folder: Any) -> bytes:
