@@ -152,6 +152,8 @@ GivenLabels read_given_labels(const Comm& comm, const Collection& collection, co
         }
     });
     given.patches.area = gather_patch_columns(comm, collection, local, options.parts);
+    if (given.patches.area.sum() <= 0.0)
+        throw AgreedError(ExitCode::input, "--examples " + options.examples + ": no face has a label");
     log.end(with_unit(static_cast<std::int64_t>(names.size()), "shape with labels", "shapes with labels"));
     return given;
 }

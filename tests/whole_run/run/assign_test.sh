@@ -86,6 +86,8 @@ rm "$work/examples/nobody.seg"
 sed -i '1s/.*/3/' "$work/examples/goblet_0006.seg"
 refuses "a part that the run has not" 3 "face 0 has label 3, but there are 3 parts" \
     ranks 2 "${assign[@]}" --examples "$work/examples" --out "$work/x" "$work/new"
+sed -i 's/.*/-1/' "$work/examples/goblet_0006.seg"
+refuses "examples that say nothing" 3 "no face has a label" "${assign[@]}" --examples "$work/examples" --out "$work/x" "$work/new"
 echo "ok: labels of some faces of new shapes are kept"
 
 "$COSEG" run "${bare[@]}" --parts 1 --patches 10 --geodesic-samples 40 --out "$work/one" "$work/old"
