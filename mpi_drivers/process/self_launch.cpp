@@ -92,9 +92,9 @@ bool has_state_option(const std::vector<std::string_view>& words) {
     });
 }
 
-/// In the child: becomes the program, and ends with this process whatever ends that. Comes back only where
-/// there is no such program, which the pipe then tells.
-void become(const std::vector<char*>& line, pid_t parent, int failed) {
+/// In the child: becomes the program, and ends with the parent whatever ends that. Where there is no such
+/// program, the pipe tells so.
+[[noreturn]] void become(const std::vector<char*>& line, pid_t parent, int failed) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(1);
     execvp(line.front(), line.data());
@@ -123,7 +123,9 @@ void run_instead(const std::vector<char*>& line, bool keeps_state) {
     close(failed[1]);
     if (worker < 0) return;
     constexpr std::array<int, 4> handed_on{SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
-    for (const int signal : handed_on) std::signal(signal, hand_on_signal);
+    for (const int signal : handed_on) {
+        if (std::signal(signal, hand_on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup has it
+    }
     std::signal(SIGINT, SIG_IGN);
     int status = 0;
     while (waitpid(worker, &status, 0) < 0 && errno == EINTR) {
