@@ -66,7 +66,7 @@ AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, c
 
     // The parts of faces, as in the run.
     std::vector<MeshLabels> labels =
-        label_faces(comm, collection, assigned.cut, partition.parts, output.refine, log, examples.faces);
+        label_faces(comm, collection, assigned.cut, {partition.parts, output.refine}, log, examples.faces);
 
     std::vector<OptionValue> values = option_values(options);
     values.push_back({"to", run, Affects::cut});

@@ -140,7 +140,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     const OutputOptions& output = options.output;
     const int parts = options.partition.parts;
     std::vector<MeshLabels> labels =
-        label_faces(comm, collection, cut, parts, output.refine, log, examples.faces);
+        label_faces(comm, collection, cut, {parts, output.refine}, log, examples.faces);
     if (!petsc_arguments.empty()) CheckedPetsc::refuse_unused(comm);
 
     const RunOutcome outcome{

@@ -113,7 +113,7 @@ std::vector<MeshEntry> entries_of(const FinishedRun& run, const std::vector<std:
 void refuse_other_labels(const Comm& comm, const BasePartition& run, const std::string& folder,
                          StageLog& log) {
     const std::vector<MeshLabels> labels =
-        label_faces(comm, run.collection, run.cut, run.options.partition.parts, run.options.output.refine,
+        label_faces(comm, run.collection, run.cut, {run.options.partition.parts, run.options.output.refine},
                     log, run.examples.faces);
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {

@@ -120,14 +120,14 @@ MeshLabels labels_of_mesh(const MeshDescription& mesh, const PatchNumbering& num
 }
 
 std::vector<MeshLabels> label_faces(const Comm& comm, const Collection& collection, const CutResult& cut,
-                                    int parts, RefineMode refine, StageLog& log,
+                                    FaceLabelling labelling, StageLog& log,
                                     const std::vector<std::vector<int>>& given) {
     log.begin("label");
     std::vector<MeshLabels> labels;
     agree(comm, [&] {
         for (std::size_t k = 0; k < collection.local.size(); ++k) {
-            labels.push_back(labels_of_mesh(collection.local[k], collection.numbering, cut, parts, refine,
-                                            given.empty() ? std::vector<int>() : given[k]));
+            labels.push_back(labels_of_mesh(collection.local[k], collection.numbering, cut, labelling.parts,
+                                            labelling.refine, given.empty() ? std::vector<int>() : given[k]));
         }
         log.end_of_own_work();
     });

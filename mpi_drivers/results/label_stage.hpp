@@ -19,12 +19,17 @@ struct MeshLabels {
     std::vector<double> part_area;  ///< K, shares of the mesh's area; 0 for a part that no face has
 };
 
+struct FaceLabelling {
+    int parts = 0;  ///< K
+    RefineMode refine = RefineMode::scored;
+};
+
 /// Labels of this rank's meshes, voted and refined, from the parts of all patches, 0 .. parts - 1. The
 /// confidence of a face is the mean over the over-segmentations of the probability that its part is right: c
 /// of a patch of this part, and (1 - c) / (parts - 1) of another; 1 for a face whose label is given. `given`:
 /// GivenLabels::faces, which faces keep. The log has the stage "label". Collective.
 std::vector<MeshLabels> label_faces(const Comm& comm, const Collection& collection, const CutResult& cut,
-                                    int parts, RefineMode refine, StageLog& log,
+                                    FaceLabelling labelling, StageLog& log,
                                     const std::vector<std::vector<int>>& given = {});
 
 /// The same for one mesh; given: what is said of its faces, or empty. Serial.
