@@ -17,6 +17,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/folders/absolute_folder.hpp"
+#include "io/folders/state_lock.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -256,6 +257,20 @@ void refuse_too_little_space(const std::string& staging, std::uintmax_t input_by
                                       " MiB of meshes need more; make room or name another folder");
 }
 
+/// A session of `coseg edit` would go on with results that are no longer there.
+void refuse_open_session(const std::string& folder) {
+    const std::string file = folder + "/" + session_lock_name;
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return;
+    try {
+        const StateLock free(file, LockMode::shared);
+    } catch (const LockHeld&) {
+        throw Error(ExitCode::output, folder + ": coseg edit works on the run in it; end that first");
+    } catch (const LockUnwritable&) {
+        // Nor can the results be written, which is said of them.
+    }
+}
+
 }  // namespace
 
 OutputDirectory::OutputDirectory(const std::string& directory, bool force)
@@ -299,6 +314,7 @@ void OutputDirectory::refuse_what_is_there() const {
 void OutputDirectory::refuse_what_is_in_the_way() const {
     std::error_code ignored;
     if (!fs::is_directory(path_, ignored)) return;
+    refuse_open_session(path_);
     refuse_folders_for_files(path_,
                              [](const fs::path& path) { return is_result_file(path.filename().string()); });
     for (const OwnFolder& own : {own_folders[0], own_folders[1], own_folders[2], picture_pages}) {

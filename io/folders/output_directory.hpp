@@ -9,6 +9,9 @@
 
 namespace coseg {
 
+/// In a folder of results: locked while `coseg edit` works on the run.
+inline constexpr const char* session_lock_name = ".corrections.lock";
+
 /// A run's results are written into a folder beside the wanted one, DIR.partial-HOST-PID, which takes the
 /// name DIR in commit(); if DIR exists, into DIR/.partial-HOST-PID, whose content commit() moves up. Without
 /// commit the partial folder is removed, and nothing is left behind; what a process left that was killed is

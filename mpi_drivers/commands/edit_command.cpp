@@ -9,6 +9,7 @@
 
 #include "io/data_files/label_file.hpp"
 #include "io/folders/finished_run.hpp"
+#include "io/folders/output_directory.hpp"
 #include "io/folders/state_lock.hpp"
 #include "io/reports/edit_page.hpp"
 #include "mpi_drivers/co_segmentation.hpp"
@@ -143,7 +144,7 @@ View view_of(const Comm& comm, const BasePartition& run) {
 /// written.
 std::unique_ptr<StateLock> session_lock(const std::string& run) {
     try {
-        return std::make_unique<StateLock>(run + "/.corrections.lock", LockMode::exclusive);
+        return std::make_unique<StateLock>(run + "/" + session_lock_name, LockMode::exclusive);
     } catch (const LockHeld& held) {
         throw Error(held.code(), "another coseg edit works on '" + run + "'" +
                                      (held.holder.empty() ? std::string() : " (" + held.holder + ")") +

@@ -11,6 +11,7 @@
 #include "io/data_files/label_file.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/folders/state_folder.hpp"
+#include "io/folders/state_lock.hpp"
 #include "tests/support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -201,6 +202,17 @@ TEST(OutputDirectory, ForceKeepsTheCorrectionsOfAnEarlierRun) {
     EXPECT_EQ(content("corrections.json"), "third");
     EXPECT_EQ(content("corrections_1.json"), "first");
     EXPECT_EQ(content("corrections_2.json"), "second");
+}
+
+TEST(OutputDirectory, ForceLeavesARunOnWhichASessionIsOpen) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder.path("out"));
+    {
+        const StateLock session(folder.path("out/") + session_lock_name, LockMode::exclusive);
+        const std::string refused = error_of([&] { OutputDirectory(folder.path("out"), true); }).sentence;
+        EXPECT_NE(refused.find("coseg edit works on the run in it"), std::string::npos) << refused;
+    }
+    OutputDirectory(folder.path("out"), true).commit();
 }
 
 TEST(OutputDirectory, ForceWithoutCommitLeavesTheOldResults) {
