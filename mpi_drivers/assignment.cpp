@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "io/data_files/name_file.hpp"
 #include "mpi_drivers/describe/face_features.hpp"
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
@@ -25,6 +26,17 @@ void refuse_folder_of_run(const std::string& folder, const std::string& run) {
         throw Error(ExitCode::usage, folder +
                                          " holds the run that the shapes are labelled like; write the new "
                                          "labels into a folder of their own");
+}
+
+/// What the run calls its parts, on rank 0; nothing where its folder says no names.
+LabelNames names_of_run(const Comm& comm, const std::string& run) {
+    LabelNames names;
+    agree(comm, [&] {
+        std::error_code ignored;
+        const std::string path = run + "/names.txt";
+        if (comm.is_root() && std::filesystem::exists(path, ignored)) names = read_found_names(path);
+    });
+    return names;
 }
 
 }  // namespace
@@ -82,6 +94,7 @@ AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, c
     std::string report = folders.keeps_results()
                              ? write_results(comm, folders.results(), outcome, output, log)
                              : run_report(comm, outcome, log);
+    if (folders.keeps_results()) write_part_names(comm, folders.results(), names_of_run(comm, run));
     AlignmentFile in_file_units;
     if (entries != nullptr) in_file_units = alignment_in_file_units(comm, collection, assigned.alignment);
     folders.commit(comm);

@@ -59,6 +59,12 @@ diff -r "$work/kept2/labels" "$work/new1/labels" || fail "labels with a state fo
 python3 -c 'import json, sys; state = json.load(open(sys.argv[1]))["state"]; sys.exit(state["meshes_reused"] != 2)' \
     "$work/kept2/report.json" || fail "descriptions are not taken from the state folder"
 
+# The run's names of parts are those of the new shapes.
+printf '0 cup\n2 foot\n' >"$work/run/names.txt"
+"${assign[@]}" --out "$work/named" "$work/new/goblet_0006.off"
+[[ $(cat "$work/named/names.txt") == $'0 cup\n2 foot' ]] || fail "names of parts"
+rm "$work/run/names.txt"
+
 # Labels of some faces of new shapes: the first half of the faces of one shape has part 0, whatever the run says.
 mkdir "$work/examples"
 python3 - "$work/new1/labels/goblet_0006.seg" "$work/examples/goblet_0006.seg" <<'END'
