@@ -90,6 +90,7 @@ PositionFrame position_frame(const Comm& comm, const SparseRows& links, const Ei
     own += 1e-9 * std::max(own.trace(), 1e-30) * Eigen::Matrix3d::Identity();
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(
         0.5 * (across + across.transpose()), own);
+    if (solver.info() != Eigen::Success) return {};  // there is no spread but rounding: positions say nothing
     return {mean, solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0).cwiseMin(most_correlation)};
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "solvers/alignment/rotation_fit.hpp"
+#include "src/base/decomposition.hpp"
 #include "src/base/index.hpp"
 
 namespace coseg {
@@ -109,7 +110,7 @@ Eigen::Matrix3d standing_frame(const Eigen::Matrix3Xd& placed, const PlacedPatch
     for (Eigen::Index p = 0; p < placed.cols(); ++p)
         spread += patches.patch_area[at(p)] * placed.col(p) * placed.col(p).transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);  // ascending
-    const Eigen::Matrix3d& axes = solver.eigenvectors();
+    const Eigen::Matrix3d& axes = succeeded(solver, "the spread of the patches").eigenvectors();
     const Eigen::Matrix3Xd turned = axes.transpose() * placed;
     Eigen::Index up = 0;
     double best = -1.0;

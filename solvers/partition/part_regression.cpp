@@ -8,6 +8,7 @@
 
 #include "solvers/affinity/position_correlation.hpp"
 #include "solvers/partition/labelled_parts.hpp"
+#include "src/base/decomposition.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
@@ -72,7 +73,8 @@ LinearScore fitted(Moments m, double ridge) {
     m.cross -= m.weight * mean_y * mean_x.transpose();
     const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(m.squares);
     LinearScore fit;
-    fit.slope = factor.solve(m.cross.transpose()).transpose();
+    fit.slope =
+        succeeded(factor, "the moments of what is said of patches").solve(m.cross.transpose()).transpose();
     fit.constant = mean_y - fit.slope * mean_x;
     return fit;
 }
@@ -96,7 +98,9 @@ PatchReduction::PatchReduction(const PatchLooks& looks) : frame_(looks.frame) {
         covariance.selfadjointView<Eigen::Lower>().rankUpdate(block);
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-    axes_ = eigen.eigenvectors().rightCols(std::min(components, all.rows()));
+    axes_ = succeeded(eigen, "the covariance of the features")
+                .eigenvectors()
+                .rightCols(std::min(components, all.rows()));
 }
 
 Eigen::MatrixXf PatchReduction::operator()(const SinglePrecisionFeatures::ConstBlock& features,

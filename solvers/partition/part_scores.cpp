@@ -74,7 +74,10 @@ class CrossFit {
     [[nodiscard]] GroupSlope fitted(const GroupSums& all, const GroupSums& left_out) const {
         Eigen::MatrixXf gram = all.gram - left_out.gram;
         gram.diagonal().array() += part_ridge;
-        return {left_out.group, gram.llt().solve(all.moment - left_out.moment)};
+        const Eigen::MatrixXf moment = all.moment - left_out.moment;
+        const Eigen::LLT<Eigen::MatrixXf> factor(gram);
+        if (factor.info() == Eigen::Success) return {left_out.group, factor.solve(moment)};
+        return {left_out.group, gram.ldlt().solve(moment)};  // where rounding outweighs the ridge
     }
 
     void score(const GroupSlope& fit, Eigen::MatrixXf& scores) const {
