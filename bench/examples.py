@@ -24,15 +24,14 @@ from accuracy import find_sets
 PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
-def run_coseg(arguments, sample, state, out, examples):
+def run_coseg(arguments, sample, state, out, options):
+    """A run into `sample["parts"]` parts, with further options of coseg run."""
     command = ["mpirun", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html",
                "--no-keep-model", "--seed", str(arguments.seed), "--parts", str(sample["parts"]), "--state", state,
-               "--out", out, "--force"]
-    if examples:
-        command += ["--examples", examples]
+               "--out", out, "--force"] + options
     done = subprocess.run(command + sample["meshes"], capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(f"examples: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
+        sys.exit(f"{os.path.basename(sys.argv[0])}: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
 
 
 def score(arguments, sample, truth, labels):
@@ -60,13 +59,13 @@ def choices_of(names, arguments):
 def measure(arguments, sample, work):
     names = sorted(file[:-4] for file in os.listdir(sample["truth"]) if file.endswith(".seg"))
     state, out = os.path.join(work, "state"), os.path.join(work, "out")
-    run_coseg(arguments, sample, state, out, None)
+    run_coseg(arguments, sample, state, out, [])
     without = score(arguments, sample, sample["truth"], os.path.join(out, "labels"))
     figures = []
     for number, given in enumerate(choices_of(names, arguments)):
         folder = links(os.path.join(work, f"given_{number}"), sample["truth"], given)
         others = links(os.path.join(work, f"others_{number}"), sample["truth"], [n for n in names if n not in given])
-        run_coseg(arguments, sample, state, out, folder)
+        run_coseg(arguments, sample, state, out, ["--examples", folder])
         figures.append(score(arguments, sample, others, os.path.join(out, "labels")))
     return {"parts": sample["parts"], "shapes": len(names), "without": without, "choices": figures}
 

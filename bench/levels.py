@@ -9,31 +9,13 @@ than the truth has the other runs are asked for; those below 2 are left out. --s
 DIR/SET, so that only the cut is made for each number.
 """
 import argparse
-import json
 import os
-import subprocess
-import sys
 import tempfile
 
 from accuracy import find_sets
+from examples import run_coseg, score
 
 PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-
-
-def run_coseg(arguments, sample, parts, state, out):
-    command = ["mpirun", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html",
-               "--no-keep-model", "--seed", str(arguments.seed), "--parts", str(parts), "--levels", "--state", state,
-               "--out", out, "--force"]
-    done = subprocess.run(command + sample["meshes"], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"levels: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
-
-
-def score(arguments, sample, labels):
-    """One-to-one accuracy in percent."""
-    command = [arguments.coseg, "score", "--json", "--truth", sample["truth"], "--labels", labels] + sample["meshes"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)["one_to_one"]
 
 
 def main():
@@ -56,8 +38,8 @@ def main():
                     cells.append("-")
                     continue
                 out = os.path.join(work, "run")
-                run_coseg(arguments, sample, parts + off, os.path.join(arguments.state or work, name), out)
-                cells.append(f"{score(arguments, sample, os.path.join(out, 'levels', str(parts))):.1f}")
+                run_coseg(arguments, dict(sample, parts=parts + off), os.path.join(arguments.state or work, name), out, ["--levels"])
+                cells.append(f"{score(arguments, sample, sample['truth'], os.path.join(out, 'levels', str(parts))):.1f}")
             print(f"| {name} ({parts}) | " + " | ".join(cells) + " |", flush=True)
 
 
