@@ -32,9 +32,7 @@ void refuse_folder_of_run(const std::string& folder, const std::string& run) {
 LabelNames names_of_run(const Comm& comm, const std::string& run) {
     LabelNames names;
     agree(comm, [&] {
-        std::error_code ignored;
-        const std::string path = run + "/names.txt";
-        if (comm.is_root() && std::filesystem::exists(path, ignored)) names = read_found_names(path);
+        if (comm.is_root()) names = names_in_folder(run);
     });
     return names;
 }

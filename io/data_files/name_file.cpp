@@ -1,7 +1,9 @@
 #include "io/data_files/name_file.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -65,6 +67,12 @@ LabelNames parse_names(std::string bytes, const std::string& path) {
 LabelNames read_names(const std::string& path) { return parse_names(read_file(path), path); }
 
 LabelNames read_found_names(const std::string& path) { return parse_names(read_regular_file(path), path); }
+
+LabelNames names_in_folder(const std::string& folder) {
+    const std::string path = folder + "/names.txt";
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) ? read_found_names(path) : LabelNames();
+}
 
 std::string names_text(const LabelNames& names) {
     std::string text;

@@ -20,6 +20,9 @@ LabelNames read_names(const std::string& path);
 /// refused with Error(input), as reading it could wait for ever.
 LabelNames read_found_names(const std::string& path);
 
+/// The names in FOLDER/names.txt; none where there is no such file. Throws as read_found_names.
+LabelNames names_in_folder(const std::string& folder);
+
 /// The text of such a file: the number and the name of each label, a line each.
 std::string names_text(const LabelNames& names);
 

@@ -70,13 +70,9 @@ std::vector<std::string> names_of_parts(const Comm& comm, const FinishedRun& run
     LabelNames names;
     bool are_of_labels = false;
     agree(comm, [&] {
-        const std::string in_run = run.folder + "/names.txt";
         const std::string beside_truth = input.truth + "/labels.txt";
-        if (!file.empty()) {
-            names = read_names(file);
-        } else if (fs::exists(in_run)) {
-            names = read_found_names(in_run);
-        } else if (!input.truth.empty() && fs::exists(beside_truth)) {
+        names = file.empty() ? names_in_folder(run.folder) : read_names(file);
+        if (names.empty() && !input.truth.empty() && fs::exists(beside_truth)) {
             names = read_found_names(beside_truth);
             are_of_labels = true;
         }

@@ -59,11 +59,9 @@ int labels_in(const std::string& folder) {
 
 /// What FOLDER/names.txt calls the labels; nothing where it is not there.
 LabelNames names_in(const std::string& folder, int parts) {
-    const std::string path = folder + "/names.txt";
-    if (!std::filesystem::exists(path)) return {};
-    LabelNames names = read_found_names(path);
-    if (names.rbegin()->first < parts) return names;
-    throw Error(ExitCode::input, path + ": label " + std::to_string(names.rbegin()->first) +
+    LabelNames names = names_in_folder(folder);
+    if (names.empty() || names.rbegin()->first < parts) return names;
+    throw Error(ExitCode::input, folder + "/names.txt: label " + std::to_string(names.rbegin()->first) +
                                      " has a name, but there are " + std::to_string(parts) +
                                      " parts; labels count from 0");
 }
