@@ -91,6 +91,13 @@ CollectionShapes::CollectionShapes(const Comm& comm, std::span<const Shape> shap
     agree(comm, [&] { refuse_equal_names(entries_); });
 }
 
+void add_options(ContentHasher& hasher, const std::vector<Option>& options) {
+    for (const auto& [name, value] : options) {
+        hasher.add(name);
+        hasher.add(value);
+    }
+}
+
 void refuse_differences(const Comm& comm, const ContentHash& hash, const std::string& what) {
     ContentHash of_root = hash;
     broadcast(comm, of_root);

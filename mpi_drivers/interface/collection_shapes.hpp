@@ -33,6 +33,9 @@ class CollectionShapes {
     std::vector<std::size_t> order_;
 };
 
+/// Adds the names and the values of options.
+void add_options(ContentHasher& hasher, const std::vector<Option>& options);
+
 /// Throws AgreedError(usage) where the ranks have different hashes. `what`: "shapes". Collective.
 void refuse_differences(const Comm& comm, const ContentHash& hash, const std::string& what);
 

@@ -76,10 +76,7 @@ std::vector<ShapeDescription> all_described(LibraryCall& library, std::span<cons
                                             const std::vector<Option>& named) {
     const Comm& comm = library.comm();
     ContentHasher hasher;
-    for (const auto& [name, value] : named) {
-        hasher.add(name);
-        hasher.add(value);
-    }
+    add_options(hasher, named);
     refuse_differences(comm, hasher.result(), "options");
     DescriptionOptions options;
     agree(comm, [&] {

@@ -115,10 +115,7 @@ void add_solution(Segmentation& result, const SolveResult& solution, double gap)
 ContentHash content_of(const SegmentOptions& given) {
     ContentHasher hasher;
     hasher.add(given.parts);
-    for (const auto& [name, value] : given.options) {
-        hasher.add(name);
-        hasher.add(value);
-    }
+    add_options(hasher, given.options);
     for (const bool is_set : {given.strict, given.keep_model, given.replace}) hasher.add(is_set);
     hasher.add(given.folder);
     hasher.add(given.state);
