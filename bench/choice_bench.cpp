@@ -141,24 +141,14 @@ ClusteredCollection::ClusteredCollection(const Comm& comm, const Settings& setti
     const coseg::CutOptions cut = cut_options(*input_, options);
     const std::vector<coseg::GlobalPatchNeighbors> neighbors = local_neighbors(run_.collection);
     const std::vector<coseg::GlobalPatchOverlap> overlaps = local_overlaps(run_.collection);
-    graphs_.emplace(prepared_cut(comm,
-                                 {input_->coefficients,
-                                  neighbors,
-                                  overlaps,
-                                  mesh_of_,
-                                  input_->patch_area,
-                                  {},
-                                  input_->known_positions(),
-                                  nullptr,
-                                  &input_->features},
-                                 cut));
-    const coseg::GraphInput graphs{graphs_->neighbors, graphs_->overlaps, mesh_of_,
-                                   input_->known_positions()};
+    const coseg::CutInput cut_input{
+        input_->coefficients,      neighbors, overlaps,         mesh_of_, input_->patch_area, {},
+        input_->known_positions(), nullptr,   &input_->features};
+    graphs_.emplace(prepared_cut(comm, cut_input, cut));
     // Starts that screening has left out of the run are not among its outcomes.
     std::vector<coseg::CutStart> starts;
     for (const coseg::StartOutcome& outcome : run_.cut.starts) starts.push_back(outcome.start);
-    clusterings_ = start_clusterings(
-        comm, {graphs, graphs_->terms, starts, cut.spectral, cut.drop_below, parts_}, graphs_->one_rank);
+    clusterings_ = start_clusterings(comm, graphs_->clustering(cut_input, cut, starts), graphs_->one_rank);
 }
 
 /// What a search looks at. It refers to itself.
