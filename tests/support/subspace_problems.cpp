@@ -39,6 +39,15 @@ void change_features(SubspaceProblem& problem, const std::function<void(Eigen::M
     problem.features = matrices;
 }
 
+void expect_same_coefficients(const SparseCoefficients& a, const SparseCoefficients& b) {
+    EXPECT_EQ(a.size, b.size);
+    EXPECT_EQ(a.columns, b.columns);
+    EXPECT_EQ(a.features, b.features);
+    EXPECT_EQ(a.offsets, b.offsets);
+    EXPECT_EQ(a.rows, b.rows);
+    EXPECT_EQ(a.values, b.values);
+}
+
 void expect_same_solution(const SolveResult& a, const SolveResult& b) {
     EXPECT_EQ(a.objective, b.objective);
     EXPECT_EQ(a.lower_bound, b.lower_bound);
@@ -48,9 +57,7 @@ void expect_same_solution(const SolveResult& a, const SolveResult& b) {
     EXPECT_EQ(a.history, b.history);
     EXPECT_EQ(a.reason, b.reason);
     EXPECT_EQ(a.nonzero_groups, b.nonzero_groups);
-    EXPECT_EQ(a.coefficients.offsets, b.coefficients.offsets);
-    EXPECT_EQ(a.coefficients.rows, b.coefficients.rows);
-    EXPECT_EQ(a.coefficients.values, b.coefficients.values);
+    expect_same_coefficients(a.coefficients, b.coefficients);
 }
 
 std::vector<Eigen::MatrixXd> dense_weights(const SparseCoefficients& coefficients) {

@@ -19,6 +19,9 @@ SubspaceProblem random_subspace_problem(int features, int rows, int columns, int
 /// Changes every feature of a problem; those that it has been copied from keep theirs.
 void change_features(SubspaceProblem& problem, const std::function<void(Eigen::MatrixXd&)>& change);
 
+/// Coefficients of the same columns must agree to the bit.
+void expect_same_coefficients(const SparseCoefficients& a, const SparseCoefficients& b);
+
 /// Bounds, counts and coefficients must agree to the bit.
 void expect_same_solution(const SolveResult& a, const SolveResult& b);
 

@@ -6,29 +6,21 @@
 
 #include "src/base/index.hpp"
 #include "tests/support/graphs.hpp"
+#include "tests/support/subspace_problems.hpp"
 
 namespace coseg {
 namespace {
 
 using testing_graphs::random_coefficients;
 
-void expect_equal(const SparseCoefficients& found, const SparseCoefficients& expected) {
-    EXPECT_EQ(found.size, expected.size);
-    EXPECT_EQ(found.columns, expected.columns);
-    EXPECT_EQ(found.features, expected.features);
-    EXPECT_EQ(found.offsets, expected.offsets);
-    EXPECT_EQ(found.rows, expected.rows);
-    EXPECT_EQ(found.values, expected.values);
-}
-
 TEST(Coefficients, OfAllRanksAreThoseOfOne) {
     const Comm comm(MPI_COMM_WORLD);
     const SparseCoefficients whole = random_coefficients(Comm(MPI_COMM_SELF), 100, 3, 6, 11);
     const SparseCoefficients mine = random_coefficients(comm, 100, 3, 6, 11);
-    expect_equal(all_gathered(comm, mine), whole);
+    expect_same_coefficients(all_gathered(comm, mine), whole);
     const SparseCoefficients root = gathered(comm, mine);
     if (comm.is_root())
-        expect_equal(root, whole);
+        expect_same_coefficients(root, whole);
     else
         EXPECT_TRUE(root.rows.empty() && root.values.empty());
 }
@@ -80,7 +72,7 @@ TEST(ColumnAssembly, TakesEachColumnFromTheSolveThatFoundItFirst) {
     }
     const SparseCoefficients mine = assembly.take();
     EXPECT_EQ(mine.columns, block_range(size, comm.size(), comm.rank(), coefficient_tile));
-    expect_equal(all_gathered(comm, mine), assembled(size, whole, item_of));
+    expect_same_coefficients(all_gathered(comm, mine), assembled(size, whole, item_of));
 }
 
 }  // namespace
