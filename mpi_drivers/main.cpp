@@ -4,85 +4,27 @@
 #include <malloc.h>
 #include <mpi.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "mpi_drivers/options/command.hpp"
-#include "mpi_drivers/options/config_file.hpp"
-#include "mpi_drivers/options/help_pages.hpp"
+#include "mpi_drivers/commands/command_line.hpp"
 #include "mpi_drivers/process/mpi_start.hpp"
 #include "mpi_drivers/process/self_launch.hpp"
 #include "mpi_drivers/process/signals.hpp"
-#include "mpi_drivers/process/version.hpp"
 #include "src/base/error.hpp"
-#include "src/base/spelling.hpp"
 
 namespace {
 
 using coseg::AgreedError;
 using coseg::Comm;
+using coseg::CommandLine;
 using coseg::Error;
 using coseg::ExitCode;
-
-struct Arguments {
-    std::vector<std::string> own;    ///< before `--`
-    std::vector<std::string> petsc;  ///< after `--`
-};
-
-Arguments split_arguments(int argc, char** argv) {
-    Arguments arguments;
-    bool after_dashes = false;
-    for (int i = 1; i < argc; ++i) {
-        const std::string argument = argv[i];
-        if (!after_dashes && argument == "--") {
-            after_dashes = true;
-        } else {
-            (after_dashes ? arguments.petsc : arguments.own).push_back(argument);
-        }
-    }
-    return arguments;
-}
-
-/// CLI11 would only say that a subcommand is required.
-void refuse_unknown_command(const std::vector<coseg::Command>& commands,
-                            const std::vector<std::string>& words) {
-    if (words.empty() || words.front().starts_with("-")) return;
-    const std::string& first = words.front();
-    std::string list;
-    std::vector<std::string> names;
-    for (const coseg::Command& command : commands) {
-        if (command.app->get_name() == first) return;
-        names.push_back(command.app->get_name());
-        list += (list.empty() ? "" : ", ") + names.back();
-    }
-    const std::string meant = coseg::nearest_word(first, names);
-    throw CLI::ParseError("'" + first + "' is not a command" +
-                              (meant.empty() ? "" : "; did you mean " + meant + "?") +
-                              (meant.empty() ? "; the" : " The") + " commands are " + list,
-                          CLI::ExitCodes::ExtrasError);
-}
-
-/// Every rank parses the same words, so every rank fails alike and only rank 0 speaks.
-int report_parse_error(const CLI::App& app, const CLI::ParseError& error, bool is_root) {
-    if (error.get_exit_code() == 0) return is_root ? app.exit(error) : 0;  // --help, --version
-    if (is_root) {
-        std::fprintf(stderr, "coseg: %s\nRun 'coseg --help' or 'coseg COMMAND --help' for the options.\n",
-                     error.what());
-    }
-    return static_cast<int>(ExitCode::usage);
-}
-
-int agreed_exit(const AgreedError& error, bool is_root) {
-    if (is_root) std::fprintf(stderr, "coseg: %s\n", error.what());
-    return static_cast<int>(error.code());
-}
 
 /// A failure that the other ranks do not know of: they may wait in a collective call, so all are ended here.
 [[noreturn]] void end_all_ranks(int rank, const std::string& cause, ExitCode code) {
@@ -92,17 +34,14 @@ int agreed_exit(const AgreedError& error, bool is_root) {
     std::abort();
 }
 
-int run_command(const std::vector<coseg::Command>& commands, const coseg::Invocation& invocation) {
-    const Comm& world = invocation.world;
+int run_command(const Comm& world, const CommandLine& line) {
     try {
-        for (const coseg::Command& command : commands) {
-            if (command.app->parsed()) command.run(invocation);
-        }
+        line.run(world);
         return static_cast<int>(ExitCode::success);
     } catch (const AgreedError& error) {
-        return agreed_exit(error, world.is_root());
+        return coseg::told(error, world.is_root());
     } catch (const Error& error) {
-        if (world.size() == 1) return agreed_exit(AgreedError(error.code(), error.what()), true);
+        if (world.size() == 1) return coseg::told(error, true);
         end_all_ranks(world.rank(), error.what(), error.code());
     } catch (const std::bad_alloc&) {
         end_all_ranks(world.rank(), "out of memory; use more nodes or fewer shapes", ExitCode::internal);
@@ -111,64 +50,12 @@ int run_command(const std::vector<coseg::Command>& commands, const coseg::Invoca
     }
 }
 
-int parse_and_run(const Comm& world, int argc, char** argv) {
-    const Arguments arguments = split_arguments(argc, argv);
-    CLI::App app("coseg: co-segmentation of collections of 3D shapes", "coseg");
-    app.set_version_flag("--version", coseg::version_text);
-    app.require_subcommand(1);
-    app.footer(
-        "Exit codes: 0 success, 1 internal error, 2 usage, 3 input, 4 output, 5 no convergence, "
-        "75 checkpointed (the same command continues).");
-    const std::vector<coseg::Command> commands = {
-        coseg::add_run_command(app),    coseg::add_assign_command(app),   coseg::add_render_command(app),
-        coseg::add_report_command(app), coseg::add_export_command(app),   coseg::add_score_command(app),
-        coseg::add_check_command(app),  coseg::add_generate_command(app), coseg::add_describe_command(app),
-        coseg::add_state_command(app),  coseg::add_cluster_command(app),  coseg::add_solve_command(app),
-        coseg::add_edit_command(app),   coseg::add_man_command(app),      coseg::add_completion_command(app)};
-    if (arguments.own.empty()) {
-        if (world.is_root()) {
-            std::cout << app.help() << std::flush;
-            std::fputs("coseg: a subcommand is required, as in 'coseg run'\n", stderr);
-        }
-        return static_cast<int>(ExitCode::usage);
-    }
-    try {
-        refuse_unknown_command(commands, arguments.own);
-        std::vector<std::string> words = coseg::with_config_file(world, arguments.own);
-        for (const coseg::Command& command : commands) {
-            if (!words.empty() && command.app->get_name() == words.front())
-                coseg::refuse_unknown_options(*command.app, words);
-        }
-        std::reverse(words.begin(), words.end());  // as CLI11 takes them
-        app.parse(words);
-        for (const coseg::Command& command : commands) {
-            if (command.app->parsed()) coseg::refuse_empty_values(*command.app);
-        }
-    } catch (const CLI::ParseError& error) {
-        return report_parse_error(app, error, world.is_root());
-    } catch (const AgreedError& error) {
-        return agreed_exit(error, world.is_root());
-    } catch (const std::exception& error) {
-        return agreed_exit(AgreedError(ExitCode::internal, error.what()), world.is_root());
-    }
-    return run_command(commands, {world, arguments.petsc});
-}
-
 /// A result that could not be printed (a full disk, a closed pipe) is no success.
 int with_output_written(int code) {
     std::cout.flush();
     if (std::cout.good() || code != static_cast<int>(ExitCode::success)) return code;
     std::fprintf(stderr, "coseg: standard output cannot be written; redirect it to where there is space\n");
     return static_cast<int>(ExitCode::output);
-}
-
-/// A state folder that only a configuration file names is not seen here.
-bool has_state_folder(int argc, char** argv) {
-    for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
-        const std::string_view word = argv[i];
-        if (word == "--state" || word.starts_with("--state=")) return true;
-    }
-    return false;
 }
 
 /// libpsm2, which Open MPI loads whether there is such a network or not, makes malloc keep what is freed, for
@@ -186,15 +73,21 @@ void return_freed_memory() {
 // What is thrown outside a subcommand (out of memory at start) may end the program at once.
 // NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
-    coseg::launch_on_all_cores(argc, argv);
-    if (has_state_folder(argc, argv)) coseg::heed_stop_requests();
+    CommandLine line(argc, argv);
+    const bool is_alone = !coseg::is_launched();
+    if (is_alone) {
+        if (const std::optional<int> ended = line.parse()) return with_output_written(*ended);
+        if (const auto request = line.launch_request()) coseg::launch_ranks(*request, argc, argv);
+    }
+    if (line.keeps_state()) coseg::heed_stop_requests();
     coseg::let_long_files_fail();
     coseg::initialise_mpi(MPI_THREAD_FUNNELED);  // threads that watch call no MPI
     return_freed_memory();
     int code = 0;
     {
         const Comm world(MPI_COMM_WORLD);
-        code = with_output_written(parse_and_run(world, argc, argv));
+        const std::optional<int> ended = is_alone ? std::nullopt : line.parse(world);
+        code = with_output_written(ended ? *ended : run_command(world, line));
     }
     MPI_Finalize();
     return code;

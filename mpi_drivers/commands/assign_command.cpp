@@ -7,7 +7,7 @@
 #include "mpi_drivers/assignment.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
-#include "src/parallel/rank_limit.hpp"
+#include "mpi_drivers/options/launch_option.hpp"
 
 namespace coseg {
 
@@ -16,7 +16,6 @@ namespace {
 struct AssignOptions {
     std::string run;
     RunOptions own;  ///< of the command line: input, output, state, picture
-    int ranks = 0;   ///< acted on before MPI starts, see self_launch.hpp
 };
 
 }  // namespace
@@ -48,9 +47,7 @@ Command add_assign_command(CLI::App& parent) {
            "Folder with NAME.seg for some of the new shapes: one part of the run for each face, or -1 where "
            "nothing is said. These faces keep their parts, and new shapes that are like them follow")
         ->type_name("DIR");
-    app->add_option("--ranks", options->ranks,
-                    "Ranks of a command that is started without mpirun; 0: one for each core")
-        ->check(CLI::Range(0, most_ranks_of_a_launch));
+    add_ranks_option(*app);
     app->add_flag("--sheet,!--no-sheet", own.output.sheet, "Draw contact_sheet.png (on by default)");
     app->add_flag("--html,!--no-html", own.output.html, "Write report.html (on by default)");
     app->add_option("--view", own.output.view.view, "View of the picture; see coseg render --help")

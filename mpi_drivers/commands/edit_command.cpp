@@ -18,12 +18,12 @@
 #include "mpi_drivers/finished_runs/finished_shapes.hpp"
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/launch_option.hpp"
 #include "mpi_drivers/options/named_options.hpp"
 #include "mpi_drivers/process/checked_petsc.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 #include "src/base/text.hpp"
-#include "src/parallel/rank_limit.hpp"
 #include "src/parallel/record_exchange.hpp"
 #include "src/records/part_limits.hpp"
 
@@ -37,7 +37,6 @@ struct EditOptions {
     std::vector<std::string> meshes;
     int port = 0;
     bool quiet = false;
-    int ranks = 0;  // acted on before MPI starts, see self_launch.hpp
 };
 
 bool is_corrected(const FinishedRun& run) {
@@ -213,9 +212,7 @@ Command add_edit_command(CLI::App& parent) {
     app->add_option("--port", options->port, "Port of 127.0.0.1 to serve on; 0: any that is free")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
-    app->add_option("--ranks", options->ranks,
-                    "Ranks of a command that is started without mpirun; 0: one for each core")
-        ->check(CLI::Range(0, most_ranks_of_a_launch));
+    add_ranks_option(*app);
     app->add_flag("--quiet", options->quiet, "No progress lines; the address, warnings and errors only");
     app->footer(
         "It serves 127.0.0.1 alone. A run with --state opens in seconds; one without is computed again. "

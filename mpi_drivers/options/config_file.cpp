@@ -23,12 +23,6 @@ std::string named_file(const std::vector<std::string>& words) {
     return "";
 }
 
-bool is_given(const std::vector<std::string>& words, const std::string& option) {
-    return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
-        return word == option || word.starts_with(option + "=");
-    });
-}
-
 std::string joined(const std::vector<std::string>& values) {
     std::string text;
     for (const std::string& value : values) text += (text.empty() ? "" : ",") + value;
@@ -84,17 +78,29 @@ std::vector<std::string> words_of(const std::vector<CLI::ConfigItem>& items, con
 
 }  // namespace
 
-std::vector<std::string> with_config_file(const Comm& comm, const std::vector<std::string>& words) {
-    const std::string path = named_file(words);
-    if (path.empty() || words.empty()) return words;
-    std::vector<std::string> from_file;
-    agree(comm, [&] {
-        if (comm.is_root()) from_file = words_of(parsed(path), path, words);
+bool is_given(const std::vector<std::string>& words, const std::string& option) {
+    return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+        return word == option || word.starts_with(option + "=");
     });
-    broadcast(comm, from_file);
+}
+
+std::vector<std::string> with_config_file(const std::vector<std::string>& words) {
+    const std::string path = named_file(words);
+    if (path.empty()) return words;
     std::vector<std::string> all = {words.front()};  // the subcommand stands first
+    const std::vector<std::string> from_file = words_of(parsed(path), path, words);
     all.insert(all.end(), from_file.begin(), from_file.end());
     all.insert(all.end(), words.begin() + 1, words.end());
+    return all;
+}
+
+std::vector<std::string> with_config_file(const Comm& comm, const std::vector<std::string>& words) {
+    if (named_file(words).empty()) return words;
+    std::vector<std::string> all;
+    agree(comm, [&] {
+        if (comm.is_root()) all = with_config_file(words);
+    });
+    broadcast(comm, all);
     return all;
 }
 

@@ -11,10 +11,13 @@ namespace coseg {
 /// The words of the command line, preceded by the keys of the file that `--config FILE` names, as options. A
 /// key is an option's name without its dashes; `input` holds the meshes. Options on the command line itself
 /// win. Unknown keys become unknown options, which the parser refuses by name. Without --config the words
-/// come back as they are. Rank 0 reads the file. Collective; throws AgreedError(usage) if it cannot be read
-/// or is not TOML or INI.
-///
-/// Deviates: CLI11 reads configuration files for the whole program only, with a section for each subcommand.
+/// come back as they are. Needs no MPI. Throws Error(usage) if the file cannot be read or is not TOML or INI.
+std::vector<std::string> with_config_file(const std::vector<std::string>& words);
+
+/// The same where rank 0 alone reads the file. Collective; throws AgreedError(usage).
 std::vector<std::string> with_config_file(const Comm& comm, const std::vector<std::string>& words);
+
+/// Whether the words have the option, as `--name VALUE` or `--name=VALUE`.
+bool is_given(const std::vector<std::string>& words, const std::string& option);
 
 }  // namespace coseg

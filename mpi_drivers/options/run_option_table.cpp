@@ -6,11 +6,11 @@
 
 #include "io/mesh_files/mesh_format.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
+#include "mpi_drivers/options/launch_option.hpp"
 #include "mpi_drivers/options/named_options.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
 #include "mpi_drivers/options/weld_option.hpp"
 #include "src/descriptors/descriptor_table.hpp"
-#include "src/parallel/rank_limit.hpp"
 #include "src/pictures/shape_view.hpp"
 #include "src/records/part_limits.hpp"
 
@@ -184,9 +184,7 @@ void RunOptionTable::add_input_and_output(OptionSet set) {
         {"json-log", Affects::nothing, in_out_group, "Progress and warnings as one JSON object a line"},
         process.json_log);
     add_seed();
-    app_.add_option("--ranks", ranks_, "Ranks of a run that is started without mpirun; 0: one for each core")
-        ->check(CLI::Range(0, most_ranks_of_a_launch))
-        ->group(in_out_group);
+    add_ranks_option(app_)->group(in_out_group);
     add_state(set);
     add({"config", Affects::nothing, in_out_group,
          "Read options from a TOML or INI file; the command line wins"},

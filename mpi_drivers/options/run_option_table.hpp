@@ -64,7 +64,6 @@ class RunOptionTable {
     CLI::App& app_;
     RunOptions& options_;
     std::vector<Printer> printers_;
-    int ranks_ = 0;  // acted on before MPI starts, see self_launch.hpp; here for its check and its help
 };
 
 }  // namespace coseg

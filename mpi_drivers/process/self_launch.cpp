@@ -19,9 +19,10 @@
 #include <system_error>
 #include <vector>
 
+#include "mpi_drivers/process/environment_setting.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
-#include "src/parallel/rank_limit.hpp"
+#include "src/parallel/launch_request.hpp"
 
 namespace coseg {
 
@@ -29,18 +30,6 @@ namespace {
 
 constexpr std::array<const char*, 6> marks_of_launchers{
     "OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_STEPID", "ALPS_APP_PE"};
-constexpr std::array<std::string_view, 3> commands_in_parallel{"run", "assign", "edit"};
-
-/// Of what stands before `--`; the last one counts, as for every option.
-std::optional<std::string_view> ranks_option(const std::vector<std::string_view>& words) {
-    constexpr std::string_view name = "--ranks";
-    std::optional<std::string_view> value;
-    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i) {
-        if (words[i] == name && i + 1 < words.size()) value = words[i + 1];
-        if (words[i].starts_with("--ranks=")) value = words[i].substr(name.size() + 1);
-    }
-    return value;
-}
 
 int usable_cores() {
     cpu_set_t cores;
@@ -57,23 +46,31 @@ int ranks_of_variable(const std::string& text) {
     std::exit(static_cast<int>(ExitCode::usage));
 }
 
-int wanted_ranks(const std::vector<std::string_view>& words) {
-    if (const auto option = ranks_option(words)) return whole_number(*option).value_or(1);
+int wanted_ranks(std::optional<int> asked) {
+    if (asked) return *asked == 0 ? usable_cores() : *asked;
     if (const char* variable = std::getenv("COSEG_RANKS")) return ranks_of_variable(variable);
     return usable_cores();
 }
 
-bool asks_for_help(const std::vector<std::string_view>& words) {
-    return std::any_of(words.begin(), words.end(),
-                       [](std::string_view w) { return w == "--help" || w == "-h"; });
-}
+/// Who is root has decided so already, and mpirun itself looks for programs on PATH.
+constexpr std::array<EnvironmentSetting, 3> needed{{{"PATH", "/usr/local/bin:/usr/bin:/bin"},
+                                                    {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+                                                    {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}}};
 
-/// On one machine: more ranks than Open MPI counts cores are fine, none is tied to a core that another
-/// program uses, and who is root has decided so already. mpirun itself looks for programs on PATH.
+/// On one machine Open MPI needs no libraries of fast networks, each of which watches the clock for a while
+/// at every start, and hwloc need not look for graphics cards and devices.
+constexpr std::array<EnvironmentSetting, 2> on_one_machine{
+    {{"OMPI_MCA_pml", "ob1"}, {"HWLOC_COMPONENTS", "-gl,-opencl,-pci,-linuxio"}}};
+
+/// Of batch systems whose machines mpirun uses without being told.
+constexpr std::array<const char*, 4> marks_of_allocations{"SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID",
+                                                          "PE_HOSTFILE"};
+
+/// What the user has set stays.
 void prepare_environment() {
-    setenv("PATH", "/usr/local/bin:/usr/bin:/bin", 0);
-    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
-    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
+    for (const EnvironmentSetting& setting : needed) setenv(setting.variable, setting.value, 0);
+    if (std::any_of(marks_of_allocations.begin(), marks_of_allocations.end(), is_set)) return;
+    for (const EnvironmentSetting& setting : on_one_machine) setenv(setting.variable, setting.value, 0);
 }
 
 /// The process that works in place of this one, and whether its ranks keep a state that they can write.
@@ -84,12 +81,6 @@ volatile bool worker_keeps_state = false;
 /// to write it, by the signal that mpirun hands on to them.
 void hand_on_signal(int signal) {
     if (worker > 0) ::kill(worker, signal == SIGTERM && worker_keeps_state ? SIGUSR1 : signal);
-}
-
-bool has_state_option(const std::vector<std::string_view>& words) {
-    return std::any_of(words.begin(), words.end(), [](std::string_view word) {
-        return word == "--state" || word.starts_with("--state=");
-    });
 }
 
 /// In the child: becomes the program, and ends with the parent whatever ends that. Where there is no such
@@ -140,29 +131,21 @@ void run_instead(const std::vector<char*>& line, bool keeps_state) {
 
 }  // namespace
 
-bool is_launched() {
-    return std::any_of(marks_of_launchers.begin(), marks_of_launchers.end(),
-                       [](const char* name) { return std::getenv(name) != nullptr; });
-}
+bool is_launched() { return std::any_of(marks_of_launchers.begin(), marks_of_launchers.end(), is_set); }
 
-void launch_on_all_cores(int argc, char** argv) {
-    const std::vector<std::string_view> words(argv + std::min(argc, 1), argv + argc);
-    const bool is_parallel =
-        !words.empty() && std::find(commands_in_parallel.begin(), commands_in_parallel.end(),
-                                    words.front()) != commands_in_parallel.end();
-    if (!is_parallel || is_launched() || asks_for_help(words)) return;
-    const int ranks = wanted_ranks(words);
-    if (ranks < 2 || ranks > most_ranks_of_a_launch) return;
+void launch_ranks(const LaunchRequest& request, int argc, char** argv) {
+    const int ranks = wanted_ranks(request.ranks);
+    if (ranks < 2) return;
     std::array<char, 4096> self{};
     if (readlink("/proc/self/exe", self.data(), self.size() - 1) <= 0) return;
     std::vector<std::string> line = {COSEG_MPIEXEC, "--quiet", "--oversubscribe",     "--bind-to",
                                      "none",        "-n",      std::to_string(ranks), self.data()};
-    line.insert(line.end(), words.begin(), words.end());
+    line.insert(line.end(), argv + std::min(argc, 1), argv + argc);
     std::vector<char*> pointers;
     for (std::string& word : line) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     prepare_environment();
-    run_instead(pointers, has_state_option(words));
+    run_instead(pointers, request.keeps_state);
 }
 
 std::string reachable_list(const std::string& argument) {

@@ -26,8 +26,21 @@ expects "$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)" "$work/all"
 expects 3 "$work/three"
 COSEG_RANKS=2 "$COSEG" run "${common[@]}" --out "$work/two" "$work/set"
 expects 2 "$work/two"
+COSEG_RANKS=3 "$COSEG" run "${common[@]}" --ranks 0 --out "$work/cores" "$work/set"
+expects "$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)" "$work/cores"
+echo "ranks = 2" > "$work/ranks.toml"
+"$COSEG" run "${common[@]}" --config "$work/ranks.toml" --out "$work/file" "$work/set"
+expects 2 "$work/file"
 ranks 2 "$COSEG" run "${common[@]}" --ranks 4 --out "$work/mpirun" "$work/set"
 expects 2 "$work/mpirun"
+
+# Commands that give up or answer at once do so before MPI starts, which could not start here.
+for words in "run --bogus" "run --parts many" "run --ranks 2 --config $work/none.toml" "rum"; do
+    # shellcheck disable=SC2086  # several words
+    refuses "a mistake before MPI: $words" 2 "coseg: " env OMPI_MCA_pml=none "$COSEG" $words
+done
+OMPI_MCA_pml=none "$COSEG" run --help >"$work/help"
+grep -q -- "--parts" "$work/help" || fail "help before MPI"
 
 # One process makes no folder of a session: others that end would remove it from under one that starts.
 touch "$work/no_folder"
