@@ -16,7 +16,6 @@
 #include "mpi_drivers/results/profile.hpp"
 #include "mpi_drivers/results/run_folders.hpp"
 #include "mpi_drivers/results/run_results.hpp"
-#include "solvers/alignment/shape_alignment.hpp"
 
 namespace coseg {
 
@@ -72,12 +71,11 @@ PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entri
     // parts.
     PatchFeatures kept;
     if (keeps_features) kept = features;
-    auto [optimisation, cut, alignment] = partition_stage(
+    auto [optimisation, cut, alignment, positions] = partition_stage(
         comm, collection, std::move(features),
         {optimise, partition, examples.patches, checkpoints.tiles(), checkpoints.cuts()}, log);
-    if (keeps_features)
-        kept.positions = turned_positions(alignment, kept.positions, collection.numbering.mesh_of());
-    if (output.keep_model) model = in_frame(std::move(model), collection, alignment, cut.frame);
+    if (output.keep_model) model = in_frame(std::move(model), positions, alignment, cut.frame);
+    if (keeps_features) kept.positions = std::move(positions);
     checkpoints.warn_of_damage(log);
     folders.end_if_asked(comm, "all meshes, the optimiser's progress and the cut");
     RunOptions counted = options;

@@ -7,7 +7,7 @@
 #include "mpi_drivers/partition/alignment_stage.hpp"
 #include "mpi_drivers/partition/segment_stage.hpp"
 #include "mpi_drivers/partition/subset_stage.hpp"
-#include "solvers/alignment/shape_alignment.hpp"
+#include "solvers/alignment/linked_positions.hpp"
 #include "solvers/choice/part_shares.hpp"
 #include "solvers/partition/part_count.hpp"
 #include "src/base/error.hpp"
@@ -61,7 +61,9 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
     if (task.partition.parts != 1) refuse_empty_solution(optimisation.result, "the collection");
     ShapeAlignment alignment =
         alignment_stage(comm, collection, features, optimisation.result.coefficients, task.partition, log);
-    features.positions = turned_positions(alignment, features.positions, collection.numbering.mesh_of());
+    features.positions = linked_positions(comm, alignment, optimisation.result.coefficients,
+                                          features.positions, collection.numbering.mesh_of());
+    Eigen::Matrix3Xd positions = features.positions;
     const PartitionInput input =
         partition_input(comm, collection, std::move(features), optimisation.result.coefficients,
                         task.partition, task.examples);
@@ -72,7 +74,7 @@ Partitioned partition_whole(const Comm& comm, const Collection& collection, Patc
         cut.part_counts.empty() ? std::string() : "; auto: " + part_count_sentence(cut.part_counts);
     log.end(describe_starts(cut) + ", " + std::to_string(parts) + " parts" + counted);
     warn_of_degenerate_parts(cut, parts, static_cast<int>(collection.meshes.size()), log);
-    return {std::move(optimisation), std::move(cut), std::move(alignment)};
+    return {std::move(optimisation), std::move(cut), std::move(alignment), std::move(positions)};
 }
 
 Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
@@ -84,7 +86,10 @@ Partitioned partition_in_subsets(const Comm& comm, const Collection& collection,
             significant(100.0 * outcome.optimisation.subset_agreement) + " % agreement on these");
     ShapeAlignment alignment = alignment_stage(comm, collection, features,
                                                outcome.optimisation.result.coefficients, task.partition, log);
-    return {std::move(outcome.optimisation), std::move(outcome.cut), std::move(alignment)};
+    Eigen::Matrix3Xd positions = linked_positions(comm, alignment, outcome.optimisation.result.coefficients,
+                                                  features.positions, collection.numbering.mesh_of());
+    return {std::move(outcome.optimisation), std::move(outcome.cut), std::move(alignment),
+            std::move(positions)};
 }
 
 Partitioned first_pass(const Comm& comm, const Collection& collection, PatchFeatures features,

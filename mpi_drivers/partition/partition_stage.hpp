@@ -17,6 +17,7 @@ struct Partitioned {
     Optimisation optimisation;
     CutResult cut;
     ShapeAlignment alignment;
+    Eigen::Matrix3Xd positions;  ///< of all patches, see linked_positions
 };
 
 /// Throws AgreedError(input) where there are fewer patches than parts.

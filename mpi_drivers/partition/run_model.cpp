@@ -287,13 +287,10 @@ ModelPatches model_patches(const Comm& comm, const Collection& collection, const
     return patches;
 }
 
-ModelPatches in_frame(ModelPatches patches, const Collection& collection, const ShapeAlignment& alignment,
-                      const PositionFrame& frame) {
-    const std::vector<int> mesh_of = collection.numbering.mesh_of();
-    std::vector<int> mesh_of_kept;
-    for (const int p : patches.columns) mesh_of_kept.push_back(mesh_of[at(p)]);
+ModelPatches in_frame(ModelPatches patches, const Eigen::Matrix3Xd& positions,
+                      const ShapeAlignment& alignment, const PositionFrame& frame) {
     PatchPlaces& places = patches.places;
-    places.positions = turned_positions(alignment, places.positions, mesh_of_kept);
+    places.positions = positions(Eigen::all, patches.columns);
     places.frame = frame;
     places.shapes = frame_of_shapes(alignment);
     return patches;

@@ -62,9 +62,10 @@ struct ModelPatches {
 ModelPatches model_patches(const Comm& comm, const Collection& collection, const PatchFeatures& features,
                            std::uint64_t seed, bool on_all_ranks);
 
-/// The patches where the run has turned their meshes to, with the frame of the positions there.
-ModelPatches in_frame(ModelPatches patches, const Collection& collection, const ShapeAlignment& alignment,
-                      const PositionFrame& frame);
+/// The patches where they lie in the common frame, with the frame of the positions there. `positions` are
+/// those of all patches of the collection, see linked_positions.
+ModelPatches in_frame(ModelPatches patches, const Eigen::Matrix3Xd& positions,
+                      const ShapeAlignment& alignment, const PositionFrame& frame);
 
 /// The model that read_run_model gives of what write_run_model writes of the same. Serial.
 RunModel run_model(const Collection& collection, const ModelPatches& patches,

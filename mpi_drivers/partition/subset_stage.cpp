@@ -5,7 +5,7 @@
 
 #include "mpi_drivers/partition/alignment_stage.hpp"
 #include "mpi_drivers/partition/sub_collection.hpp"
-#include "solvers/alignment/shape_alignment.hpp"
+#include "solvers/alignment/linked_positions.hpp"
 #include "solvers/subspace/column_assembly.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -69,7 +69,8 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
         const ShapeAlignment alignment =
             aligned(comm, part.collection, part.features, optimised.result.coefficients, options);
         part.features.positions =
-            turned_positions(alignment, part.features.positions, part.collection.numbering.mesh_of());
+            linked_positions(comm, alignment, optimised.result.coefficients, part.features.positions,
+                             part.collection.numbering.mesh_of());
         const CutResult cut = cut_or_found(comm,
                                            partition_input(comm, part.collection, std::move(part.features),
                                                            optimised.result.coefficients, options),

@@ -63,7 +63,7 @@ Eigen::Matrix3Xd turned_positions(const ShapePose& pose, const Eigen::Matrix3Xd&
 
 /// The positions of all patches, each turned as the pose of its shape says; without scale and translation, so
 /// that they keep the centre and the unit of patch_positions. Patches of a shape that is not found are all at
-/// the centre, where a position says least: a wrong one would draw them to the wrong parts.
+/// the centre: a wrong pose would draw them to the wrong parts. linked_positions does better.
 Eigen::Matrix3Xd turned_positions(const ShapeAlignment& alignment, const Eigen::Matrix3Xd& positions,
                                   const std::vector<int>& mesh_of);
 

@@ -5,7 +5,9 @@
 #include <Eigen/LU>
 #include <cstddef>
 
+#include "solvers/alignment/linked_positions.hpp"
 #include "solvers/alignment/rotation_fit.hpp"
+#include "src/base/index.hpp"
 #include "src/base/seeded_random.hpp"
 
 namespace coseg {
@@ -115,6 +117,30 @@ TEST(ShapeAlignment, GivesNoPlacesToAShapeOfWhichTheLinksAgreeWithNothing) {
         EXPECT_EQ(turned.middleCols(columns, patches).isZero(), m == unlike) << m;
         EXPECT_TRUE(turned.middleCols(columns, patches).isApprox(expected) || m == unlike) << m;
     }
+}
+
+TEST(ShapeAlignment, PutsPatchesOfAShapeThatIsNotFoundWhereTheyAreLinkedTo) {
+    const TurnedCollection made(true);
+    const Comm comm(MPI_COMM_WORLD);
+    constexpr int unlike = 7;
+    SparseCoefficients w = made.links(comm, unlike);
+    const ShapeAlignment found = made.aligned(comm, w);
+    for (std::size_t e = 0; e < w.rows.size(); ++e) w.values[e] = 1.0 + w.rows[e] % 3;
+    const Eigen::Matrix3Xd turned = turned_positions(found, made.positions, made.mesh_of);
+    Eigen::Matrix3Xd expected = turned;
+    const SparseCoefficients all = all_gathered(comm, w);
+    const std::vector<double> norms = pair_norms(all);
+    for (int j = unlike * patches; j < (unlike + 1) * patches; ++j) {
+        double total = 0.0;
+        for (auto e = at(all.offsets[at(j)]); e < at(all.offsets[at(j) + 1]); ++e) {
+            if (made.mesh_of[at(all.rows[e])] == unlike) continue;
+            expected.col(j) += norms[e] * turned.col(all.rows[e]);
+            total += norms[e];
+        }
+        ASSERT_GT(total, 0.0);
+        expected.col(j) /= total;
+    }
+    EXPECT_EQ(linked_positions(comm, found, w, made.positions, made.mesh_of), expected);
 }
 
 TEST(ShapeAlignment, LeavesShapesThatStandAlike) {
