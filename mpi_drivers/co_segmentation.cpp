@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "io/data_files/result_files.hpp"
 #include "mpi_drivers/describe/face_features.hpp"
 #include "mpi_drivers/describe/feature_stage.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
@@ -59,7 +60,7 @@ PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entri
         comm, collection, weighted_descriptors(comm, collection, std::move(descriptors), feature_options),
         feature_options, nullptr, log);
     if (output.keep_features && folders.keeps_results())
-        write_features(comm, collection, features, folders.results() + "/features.h5");
+        write_features(comm, collection, features, folders.results() + "/" + result_files::features);
     std::vector<NamedRange> ranges = features.ranges;
     ModelPatches model;
     if (output.keep_model)
@@ -129,7 +130,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
                 "no levels are written: corrections and constraints change the parts of one level alone");
         agree(comm, [&] {
             if (comm.is_root() && folders.keeps_results())
-                write_corrections(folders.results() + "/" + corrections_file, followed.file);
+                write_corrections(folders.results() + "/" + result_files::corrections, followed.file);
         });
     }
     features = {};

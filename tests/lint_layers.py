@@ -40,7 +40,7 @@ ROOMS = {
     "io/gltf": ("io/files", "src/base", "src/pictures"),
     "io/mesh_files": ("io/files", "io/gltf", "src/base", "src/mesh", "src/pictures", "src/records"),
     "io/data_files": ("io/files", "src/base", "src/records"),
-    "io/folders": ("io/files", "src/base"),
+    "io/folders": ("io/data_files", "io/files", "src/base"),
     "io/part_files": ("io/files", "io/reports", "src/base", "src/measures", "src/mesh", "src/records"),
     "io/http": ("src/base",),
     # The part of the interface for other programs that needs no solver.

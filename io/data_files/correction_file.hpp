@@ -10,8 +10,6 @@
 
 namespace coseg {
 
-inline constexpr const char* corrections_file = "corrections.json";
-
 /// The content of corrections.json.
 struct CorrectionFile {
     std::string run;                 ///< the hash of the run that the acts are about

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/data_files/result_files.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/files/text_encoding.hpp"
@@ -69,7 +70,7 @@ LabelNames read_names(const std::string& path) { return parse_names(read_file(pa
 LabelNames read_found_names(const std::string& path) { return parse_names(read_regular_file(path), path); }
 
 LabelNames names_in_folder(const std::string& folder) {
-    const std::string path = folder + "/names.txt";
+    const std::string path = folder + "/" + result_files::names;
     std::error_code ignored;
     return std::filesystem::exists(path, ignored) ? read_found_names(path) : LabelNames();
 }

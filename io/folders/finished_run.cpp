@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "io/data_files/result_files.hpp"
 #include "io/files/content_hash.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/files/json_failure.hpp"
@@ -98,15 +99,14 @@ FinishedRun checked_run_of(const std::string& folder, const Json& report) {
 }  // namespace
 
 std::string report_path(const std::string& folder) {
-    return (std::filesystem::path(folder) / "report.json").string();
+    return (std::filesystem::path(folder) / result_files::report).string();
 }
 
 FinishedRun read_finished_run(const std::string& folder) {
     const std::string path = report_path(folder);
     if (!std::filesystem::exists(path)) {
-        throw Error(
-            ExitCode::input,
-            "'" + folder + "' holds no report.json; name the folder that coseg run was given with --out");
+        throw Error(ExitCode::input, "'" + folder + "' holds no " + result_files::report +
+                                         "; name the folder that coseg run was given with --out");
     }
     try {
         const std::string text = read_regular_file(path);
@@ -131,8 +131,10 @@ std::vector<std::string> files_changed_since(const std::string& folder) {
     std::vector<std::string> changed;
     if (run.is_report_changed) changed.push_back(report_path(folder));
     for (const FinishedShape& shape : run.shapes) {
-        add_if_changed(changed, folder + "/labels/" + shape.name + ".seg", shape.labels_xxh3);
-        add_if_changed(changed, folder + "/patches/" + shape.name + ".seg", shape.patches_xxh3);
+        add_if_changed(changed, result_files::path_of(result_files::parts, folder, shape.name),
+                       shape.labels_xxh3);
+        add_if_changed(changed, result_files::path_of(result_files::patches, folder, shape.name),
+                       shape.patches_xxh3);
     }
     return changed;
 }

@@ -9,11 +9,12 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
 
+#include "io/data_files/label_file.hpp"
+#include "io/data_files/result_files.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/folders/absolute_folder.hpp"
@@ -26,22 +27,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct OwnFolder {
-    std::string_view name;
-    const char* extension;  ///< of the files in it that are ours
-};
+/// Whether not every run writes a file of this name, in DIR itself: such files, and a picture of every kind.
+bool is_of_some_runs(const std::string& name) {
+    const auto& files = result_files::of_some_runs;
+    return std::find(files.begin(), files.end(), name) != files.end() ||
+           (name.starts_with(result_files::sheet) && name.ends_with(result_files::picture_suffix));
+}
 
-constexpr std::array<OwnFolder, 3> own_folders{{{"labels", ".seg"}, {"patches", ".seg"}, {"ply", ".ply"}}};
-// Not every run has these; those of an earlier run show what is no longer there.
-constexpr OwnFolder picture_pages{"sheets", ".png"};
-constexpr std::array<std::string_view, 8> further_files{"affinity.png", "alignment.json", "report.html",
-                                                        "profile.txt",  "trace.json",     "model.h5",
-                                                        "names.txt",    "features.h5"};
-
-/// Whether not every run writes a file of this name, in DIR itself: those above, and a picture of every kind.
-bool is_further_file(const std::string& name) {
-    return std::find(further_files.begin(), further_files.end(), name) != further_files.end() ||
-           (name.starts_with("contact_sheet") && name.ends_with(".png"));
+/// The folders of DIR in which files are replaced, and the suffix of those files.
+std::vector<MeshResult> replaced_results() {
+    std::vector<MeshResult> results(result_files::of_meshes.begin(), result_files::of_meshes.end());
+    results.push_back(result_files::sheet_pages);
+    return results;
 }
 
 [[noreturn]] void fail(const fs::path& path, const std::string& what, const std::error_code& cause) {
@@ -59,7 +56,6 @@ std::string absolute_directory(const std::string& directory) {
 }
 
 constexpr const char* partial_mark = ".partial-";
-constexpr const char* corrections_name = "corrections.json";
 
 /// What a killed run left in a folder does not count.
 bool is_empty_or_missing(const fs::path& path) {
@@ -124,16 +120,17 @@ void move_entry(const fs::path& from, const fs::path& to) {
     if (cause) fail(to, "cannot be put in place", cause);
 }
 
-/// Label and PLY files that `fresh` does not bring anew.
-void remove_stale(const OwnFolder& folder, const fs::path& old, const fs::path& fresh) {
+/// Files of meshes, or pages of pictures, that `fresh` does not bring anew. `folder` lies below both.
+void remove_stale(const std::string& folder, const std::string& suffix, const fs::path& old,
+                  const fs::path& fresh) {
     std::error_code cause;
     std::vector<fs::path> stale;
-    for (fs::directory_iterator entry(old / folder.name, cause), end; !cause && entry != end;
+    for (fs::directory_iterator entry(old / folder, cause), end; !cause && entry != end;
          entry.increment(cause)) {
         const fs::path name = entry->path().filename();
         std::error_code ignored;
-        if (name.extension() == folder.extension && !entry->is_directory(ignored) &&
-            !fs::exists(fresh / folder.name / name, ignored)) {
+        if (name.extension() == suffix && !entry->is_directory(ignored) &&
+            !fs::exists(fresh / folder / name, ignored)) {
             stale.push_back(entry->path());
         }
     }
@@ -147,15 +144,15 @@ void remove_stale(const OwnFolder& folder, const fs::path& old, const fs::path& 
 void remove_stale_levels(const fs::path& old, const fs::path& fresh) {
     std::error_code cause;
     std::vector<std::string> levels;
-    for (fs::directory_iterator entry(old / "levels", cause), end; !cause && entry != end;
+    for (fs::directory_iterator entry(old / result_files::levels, cause), end; !cause && entry != end;
          entry.increment(cause))
-        levels.push_back("levels/" + entry->path().filename().string());
+        levels.push_back(result_files::levels + ("/" + entry->path().filename().string()));
     for (const std::string& level : levels) {
-        remove_stale({level, ".seg"}, old, fresh);
+        remove_stale(level, label_suffix, old, fresh);
         std::error_code ignored;
         if (fs::is_empty(old / level, ignored)) fs::remove(old / level, ignored);
     }
-    if (fs::is_empty(old / "levels", cause)) fs::remove(old / "levels", cause);
+    if (fs::is_empty(old / result_files::levels, cause)) fs::remove(old / result_files::levels, cause);
 }
 
 std::vector<fs::path> entries_of(const fs::path& folder) {
@@ -172,7 +169,7 @@ void remove_stale_files(const fs::path& old, const fs::path& fresh) {
     for (const fs::path& path : entries_of(old)) {
         const std::string name = path.filename().string();
         std::error_code cause;
-        if (!is_further_file(name) || fs::exists(fresh / name, cause)) continue;
+        if (!is_of_some_runs(name) || fs::exists(fresh / name, cause)) continue;
         fs::remove(path, cause);
         if (cause) fail(path, "the earlier result cannot be removed", cause);
     }
@@ -192,15 +189,15 @@ void merge_folder(const fs::path& from, const fs::path& to) {
 
 /// Whether a file of a run that is no file of a mesh may have this name.
 bool is_result_file(const std::string& name) {
-    return name == "report.json" || name == corrections_name || is_further_file(name);
+    return name == result_files::report || name == result_files::corrections || is_of_some_runs(name);
 }
 
 /// The corrections of an earlier run are a person's work: others do not replace them, but get their name.
 void keep_earlier_corrections(const fs::path& old, const fs::path& fresh) {
-    const fs::path earlier = old / corrections_name;
+    const fs::path earlier = old / result_files::corrections;
     std::error_code ignored;
-    if (!fs::is_regular_file(earlier, ignored) || !fs::exists(fresh / corrections_name, ignored) ||
-        read_regular_file(earlier.string()) == read_file((fresh / corrections_name).string()))
+    if (!fs::is_regular_file(earlier, ignored) || !fs::exists(fresh / result_files::corrections, ignored) ||
+        read_regular_file(earlier.string()) == read_file((fresh / result_files::corrections).string()))
         return;
     fs::path kept;
     for (int k = 1; kept.empty() || fs::exists(kept, ignored); ++k)
@@ -229,8 +226,8 @@ bool is_ascii(const std::string& name) {
 }
 
 void try_name(const std::string& staging, const std::string& name) {
-    for (const OwnFolder& folder : own_folders) {
-        const std::string path = staging + "/" + std::string(folder.name) + "/" + name + folder.extension;
+    for (const MeshResult& result : result_files::of_meshes) {
+        const std::string path = result_files::path_of(result, staging, name);
         try {
             write_file(path, "");
         } catch (const Error& error) {
@@ -317,8 +314,8 @@ void OutputDirectory::refuse_what_is_in_the_way() const {
     refuse_open_session(path_);
     refuse_folders_for_files(path_,
                              [](const fs::path& path) { return is_result_file(path.filename().string()); });
-    for (const OwnFolder& own : {own_folders[0], own_folders[1], own_folders[2], picture_pages}) {
-        const fs::path folder = fs::path(path_) / own.name;
+    for (const MeshResult& result : replaced_results()) {
+        const fs::path folder = fs::path(path_) / result.folder;
         if (!fs::exists(folder, ignored)) continue;
         if (!fs::is_directory(folder, ignored)) {
             throw Error(ExitCode::output, folder.string() +
@@ -326,7 +323,7 @@ void OutputDirectory::refuse_what_is_in_the_way() const {
                                               "or name another");
         }
         refuse_folders_for_files(folder,
-                                 [&](const fs::path& path) { return path.extension() == own.extension; });
+                                 [&](const fs::path& path) { return path.extension() == result.suffix; });
         refuse_unwritable(folder);
     }
 }
@@ -357,8 +354,8 @@ void OutputDirectory::create() {
     fs::remove_all(staging_, cause);  // of a dead process with the same number
     fs::create_directory(staging_, cause);
     if (cause) fail(path_, "the output folder cannot be created", cause);
-    for (const OwnFolder& folder : own_folders) {
-        fs::create_directory(fs::path(staging_) / folder.name, cause);
+    for (const MeshResult& result : result_files::of_meshes) {
+        fs::create_directory(fs::path(staging_) / result.folder, cause);
         if (cause) fail(path_, "the output folder cannot be created", cause);
     }
 }
@@ -378,8 +375,8 @@ void OutputDirectory::commit() {
 }
 
 void OutputDirectory::move_into_existing() const {
-    for (const OwnFolder& folder : own_folders) remove_stale(folder, path_, staging_);
-    remove_stale(picture_pages, path_, staging_);
+    for (const MeshResult& result : replaced_results())
+        remove_stale(result.folder, result.suffix, path_, staging_);
     remove_stale_levels(path_, staging_);
     remove_stale_files(path_, staging_);
     keep_earlier_corrections(path_, staging_);
@@ -389,7 +386,8 @@ void OutputDirectory::move_into_existing() const {
 void OutputDirectory::remove_partial() noexcept {
     std::error_code ignored;
     // Folders that are still empty go without a file being opened, which a process may not be able to do.
-    for (const OwnFolder& own : own_folders) fs::remove(staging_ + "/" + std::string(own.name), ignored);
+    for (const MeshResult& result : result_files::of_meshes)
+        fs::remove(fs::path(staging_) / result.folder, ignored);
     fs::remove(staging_, ignored);
     // Other ranks may still be writing: a file that appears while the folder is emptied keeps it.
     constexpr int attempts = 20;

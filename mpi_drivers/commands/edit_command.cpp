@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "io/data_files/label_file.hpp"
+#include "io/data_files/result_files.hpp"
 #include "io/folders/finished_run.hpp"
 #include "io/folders/output_directory.hpp"
 #include "io/folders/state_lock.hpp"
@@ -47,7 +48,8 @@ bool is_corrected(const FinishedRun& run) {
 int number_of_parts(const std::string& text) {
     const std::optional<int> parts = whole_number(text);
     if (parts && *parts >= 1 && *parts <= most_parts) return *parts;
-    throw Error(ExitCode::input, "report.json: '" + text + "' is no number of parts; run coseg run again");
+    throw Error(ExitCode::input, std::string(result_files::report) + ": '" + text +
+                                     "' is no number of parts; run coseg run again");
 }
 
 /// As the run was made, before corrections, with nothing written.
@@ -117,8 +119,8 @@ void refuse_other_labels(const Comm& comm, const BasePartition& run, const std::
                     log, run.examples.faces);
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {
-            const std::string path =
-                folder + "/labels/" + run.collection.meshes[at(run.collection.local[k].mesh)].name + ".seg";
+            const std::string path = result_files::path_of(
+                result_files::parts, folder, run.collection.meshes[at(run.collection.local[k].mesh)].name);
             if (read_labels(path) != labels[k].part)
                 throw Error(
                     ExitCode::input,
@@ -168,7 +170,7 @@ void serve(const Comm& comm, EditSession& session, const BasePartition& run, con
         std::cout << server->address() << std::endl;
         if (!options.quiet)
             std::cerr << "coseg: open this address in a browser on this machine; what you say is kept in "
-                      << options.run << "/" << corrections_file << std::endl;
+                      << options.run << "/" << result_files::corrections << std::endl;
     }
     EditDesk(comm, run.base(), session, std::move(page)).serve(comm.is_root() ? &*server : nullptr);
 }
@@ -193,7 +195,7 @@ void edit(const Invocation& invocation, const EditOptions& options) {
     std::unique_ptr<CorrectedParts> parts =
         corrected_parts_of(comm, run.base(), run.solved(), run.options.partition);
     EditSession session(comm, run.base(), std::move(parts), run.options.output.refine,
-                        options.run + "/" + corrections_file);
+                        options.run + "/" + result_files::corrections);
     serve(comm, session, run, options, view_of(comm, run));
 }
 

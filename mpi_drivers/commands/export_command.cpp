@@ -180,7 +180,7 @@ void write_instances(const Comm& world, const std::vector<LabelledMesh>& shapes,
     make_folder(world, folder);
     agree(world, [&] {
         for (std::size_t k = 0; k < shapes.size(); ++k)
-            write_labels(folder + "/" + shapes[k].name + ".seg", facts.instances[k]);
+            write_labels(folder + "/" + shapes[k].name + label_suffix, facts.instances[k]);
         if (world.is_root()) std::cout << folder << std::endl;
     });
 }

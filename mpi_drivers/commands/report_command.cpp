@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "io/data_files/result_files.hpp"
 #include "io/reports/report_page.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
@@ -27,7 +28,8 @@ Command add_report_command(CLI::App& parent) {
     app->footer("Example: coseg report result --truth my_labels");
     return {app, [input, choice](const Invocation& invocation) {
                 write_html_report(invocation.world, *input, input->folder, *choice);
-                if (invocation.world.is_root()) std::cout << input->folder << "/report.html" << std::endl;
+                if (invocation.world.is_root())
+                    std::cout << input->folder << "/" << result_files::page << std::endl;
             }};
 }
 

@@ -203,7 +203,7 @@ void EditSession::write_all_labels(const std::string& folder) {
     agree(comm_, [&] {
         for (std::size_t k = 0; k < local_.size(); ++k) {
             const std::string& name = base_.collection.meshes[at(base_.collection.local[k].mesh)].name;
-            const std::string path = folder + "/" + name + ".seg";
+            const std::string path = folder + "/" + name + label_suffix;
             make_parent_folders(path);
             write_labels(path, local_labels(k).part);
         }

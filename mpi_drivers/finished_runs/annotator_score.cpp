@@ -26,7 +26,7 @@ std::vector<std::string> annotations_of(const std::string& folder, const std::st
     if (!fs::is_directory(own)) return paths;
     for (const fs::directory_entry& entry : fs::directory_iterator(own)) {
         const std::string file = entry.path().filename().string();
-        if (file.starts_with(name + "_") && entry.path().extension() == ".seg")
+        if (file.starts_with(name + "_") && entry.path().extension() == label_suffix)
             paths.push_back(entry.path().string());
     }
     std::sort(paths.begin(), paths.end());
@@ -42,7 +42,7 @@ std::vector<int> on_working_faces(const std::vector<int>& label, const FaceMap& 
 AnnotatedShape compare(const MeshEntry& mesh, const std::vector<std::string>& annotations,
                        const std::string& labels_folder) {
     AnnotatedShape shape{.name = mesh.name, .missing = false, .annotators = {}};
-    const std::string labels_path = (fs::path(labels_folder) / (mesh.name + ".seg")).string();
+    const std::string labels_path = (fs::path(labels_folder) / (mesh.name + label_suffix)).string();
     if (!fs::exists(labels_path)) {
         shape.missing = true;
         return shape;

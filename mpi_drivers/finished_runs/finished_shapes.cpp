@@ -10,6 +10,7 @@
 
 #include "io/data_files/alignment_file.hpp"
 #include "io/data_files/label_file.hpp"
+#include "io/data_files/result_files.hpp"
 #include "io/files/content_hash.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/mesh_files/mesh_list.hpp"
@@ -46,7 +47,7 @@ std::string path_of(const FinishedShape& shape, const std::map<std::string, std:
 /// Of the run's shapes by name; none where they stand as in their files.
 std::map<std::string, Eigen::Matrix3d> rotations_of(const FinishedRun& run) {
     std::map<std::string, Eigen::Matrix3d> rotations;
-    const std::string path = run.folder + "/alignment.json";
+    const std::string path = run.folder + "/" + result_files::alignment;
     if (!fs::exists(path)) return rotations;
     const AlignmentFile file = read_alignment(path);
     if (!file.aligned) return rotations;
@@ -79,11 +80,12 @@ LabelledMesh read_shape(const FinishedRun& run, int number, const FinishedInput&
     labelled.path = path_of(shape, paths);
     labelled.mesh = read_mesh(labelled.path);
     const int faces = labelled.mesh.face_count();
-    const std::string file = shape.name + ".seg";
-    labelled.part = read_checked(labelled, run.folder + "/labels/" + file, shape.labels_xxh3, run.parts);
-    labelled.patch = read_checked(labelled, run.folder + "/patches/" + file, shape.patches_xxh3,
-                                  std::numeric_limits<int>::max());
-    const std::string truth = input.truth + "/" + shape.name + ".seg";
+    labelled.part = read_checked(labelled, result_files::path_of(result_files::parts, run.folder, shape.name),
+                                 shape.labels_xxh3, run.parts);
+    labelled.patch =
+        read_checked(labelled, result_files::path_of(result_files::patches, run.folder, shape.name),
+                     shape.patches_xxh3, std::numeric_limits<int>::max());
+    const std::string truth = input.truth + "/" + shape.name + label_suffix;
     if (!input.truth.empty() && fs::exists(truth)) labelled.truth = read_labels(truth, faces);
     return labelled;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <tuple>
 
+#include "io/data_files/result_files.hpp"
 #include "io/reports/png_writer.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/exact_sum.hpp"
@@ -112,7 +113,8 @@ std::vector<SheetTile> drawn_page(const Comm& comm, const SheetRequest& request,
 }
 
 std::string page_file(const std::string& kind, int page) {
-    return "sheets/" + kind + "_" + std::to_string(page + 1) + ".png";
+    return std::string(result_files::sheet_pages.folder) + "/" + kind + "_" + std::to_string(page + 1) +
+           result_files::sheet_pages.suffix;
 }
 
 SheetHeading page_heading(const SheetRequest& request, int page, int pages) {
@@ -141,7 +143,8 @@ View agree_on_view(const Comm& comm, const std::vector<DrawnShape>& shapes_local
 }
 
 std::string sheet_file(const std::string& kind) {
-    return kind == name_of(SheetColoring::parts) ? "contact_sheet.png" : "contact_sheet_" + kind + ".png";
+    const std::string mark = kind == name_of(SheetColoring::parts) ? "" : "_" + kind;
+    return result_files::sheet + mark + result_files::picture_suffix;
 }
 
 std::vector<std::string> write_sheets(const Comm& comm, const std::string& folder,
@@ -167,7 +170,7 @@ std::vector<std::string> write_sheets(const Comm& comm, const std::string& folde
                 put(sheet_file(request.kind), tiles, request.heading, sheet_columns(end - begin));
                 return;
             }
-            std::filesystem::create_directories(folder + "/sheets");
+            std::filesystem::create_directories(folder + "/" + result_files::sheet_pages.folder);
             put(page_file(request.kind, page), tiles, page_heading(request, page, pages), 10);
             for (std::size_t k = 0; k < tiles.size(); ++k) {
                 if ((begin + static_cast<int>(k)) % index_step != 0) continue;
@@ -179,7 +182,8 @@ std::vector<std::string> write_sheets(const Comm& comm, const std::string& folde
         agree(comm, [&] {
             if (!comm.is_root()) return;
             SheetHeading heading = request.heading;
-            heading.subtitle += ", " + std::to_string(pages) + " pages in sheets/";
+            heading.subtitle +=
+                ", " + std::to_string(pages) + " pages in " + result_files::sheet_pages.folder + "/";
             if (index_step > 1) heading.subtitle += ", here 1 in " + std::to_string(index_step);
             put(sheet_file(request.kind), thumbnails, heading,
                 sheet_columns(static_cast<int>(thumbnails.size())));

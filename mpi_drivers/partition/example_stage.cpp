@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/data_files/label_file.hpp"
+#include "io/data_files/result_files.hpp"
 #include "io/files/atomic_file.hpp"
 #include "mpi_drivers/describe/patch_gather.hpp"
 #include "src/base/error.hpp"
@@ -61,9 +62,9 @@ int labels_in(const std::string& folder) {
 LabelNames names_in(const std::string& folder, int parts) {
     LabelNames names = names_in_folder(folder);
     if (names.empty() || names.rbegin()->first < parts) return names;
-    throw Error(ExitCode::input, folder + "/names.txt: label " + std::to_string(names.rbegin()->first) +
-                                     " has a name, but there are " + std::to_string(parts) +
-                                     " parts; labels count from 0");
+    throw Error(ExitCode::input, folder + "/" + result_files::names + ": label " +
+                                     std::to_string(names.rbegin()->first) + " has a name, but there are " +
+                                     std::to_string(parts) + " parts; labels count from 0");
 }
 
 void refuse_strangers(const Collection& collection, const std::vector<std::string>& names,
@@ -165,7 +166,8 @@ GivenLabels read_examples(const Comm& comm, const Collection& collection, const 
 
 void write_part_names(const Comm& comm, const std::string& folder, const LabelNames& names) {
     agree(comm, [&] {
-        if (comm.is_root() && !names.empty()) write_file(folder + "/names.txt", names_text(names));
+        if (comm.is_root() && !names.empty())
+            write_file(folder + "/" + result_files::names, names_text(names));
     });
 }
 

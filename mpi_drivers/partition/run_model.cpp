@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "io/data_files/result_files.hpp"
 #include "io/files/hdf5_file.hpp"
 #include "io/files/record_file.hpp"
 #include "io/folders/finished_run.hpp"
@@ -301,7 +302,7 @@ void write_run_model(const Comm& comm, const std::string& folder, const Collecti
                      const RunOptions& options) {
     agree(comm, [&] {
         if (!comm.is_root()) return;
-        Hdf5Writer file(folder + "/" + model_file, model_format, model_version);
+        Hdf5Writer file(folder + "/" + result_files::model, model_format, model_version);
         file.summary("model of " + std::to_string(collection.meshes.size()) + " meshes, " +
                      std::to_string(patches.meshes.size()) + " kept, " +
                      std::to_string(options.partition.parts) + " parts");
@@ -343,14 +344,14 @@ RunModel agreed_run_model(const Comm& comm, const std::string& folder, const Sta
 
 RunModel read_run_model(const std::string& folder) {
     namespace fs = std::filesystem;
-    const std::string path = (fs::path(folder) / model_file).string();
+    const std::string path = (fs::path(folder) / result_files::model).string();
     if (!fs::exists(path)) {
         const bool is_run = fs::exists(report_path(folder));
-        throw Error(
-            ExitCode::input,
-            is_run
-                ? "'" + folder + "' holds no " + model_file + ": run coseg run again, without --no-keep-model"
-                : "'" + folder + "' is no run; name the folder that coseg run was given with --out");
+        throw Error(ExitCode::input,
+                    is_run
+                        ? "'" + folder + "' holds no " + result_files::model +
+                              ": run coseg run again, without --no-keep-model"
+                        : "'" + folder + "' is no run; name the folder that coseg run was given with --out");
     }
     const Hdf5Reader file(path, model_format, model_version);
     RunModel model;

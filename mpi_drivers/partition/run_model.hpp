@@ -16,7 +16,6 @@
 
 namespace coseg {
 
-inline constexpr const char* model_file = "model.h5";
 inline constexpr const char* model_format = "coseg model";
 inline constexpr int model_version = 4;
 

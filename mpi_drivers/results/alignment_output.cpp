@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "io/data_files/result_files.hpp"
 #include "io/files/atomic_file.hpp"
 #include "src/base/index.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -124,7 +125,7 @@ void write_alignment_file(const Comm& comm, const std::string& folder, const Col
                           const ShapeAlignment& alignment) {
     const AlignmentFile file = alignment_in_file_units(comm, collection, alignment);
     agree(comm, [&] {
-        if (comm.is_root()) write_file(folder + "/alignment.json", alignment_text(file));
+        if (comm.is_root()) write_file(folder + "/" + result_files::alignment, alignment_text(file));
     });
 }
 

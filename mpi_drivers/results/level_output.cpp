@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/data_files/label_file.hpp"
+#include "io/data_files/result_files.hpp"
 #include "io/folders/state_folder.hpp"
 #include "solvers/partition/part_levels.hpp"
 #include "src/base/index.hpp"
@@ -112,7 +113,8 @@ void write_level(const std::string& folder, const std::string& name, const Writt
                  const std::vector<int>& pieces) {
     std::vector<int> labels;
     for (const int piece : pieces) labels.push_back(level.label_of_piece[at(piece)]);
-    const std::string path = folder + "/levels/" + std::to_string(level.parts) + "/" + name + ".seg";
+    const std::string path =
+        folder + "/" + result_files::levels + "/" + std::to_string(level.parts) + "/" + name + label_suffix;
     make_parent_folders(path);
     write_labels(path, labels);
 }

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include "io/data_files/label_file.hpp"
+#include "io/data_files/result_files.hpp"
 #include "io/files/content_hash.hpp"
 #include "io/mesh_files/ply_format.hpp"
 #include "io/reports/affinity_image.hpp"
@@ -150,10 +151,10 @@ void write_meshes(const Comm& comm, const std::string& folder, const Collection&
         for (std::size_t k = 0; k < labels.size(); ++k) {
             const MeshDescription& mesh = collection.local[k];
             const std::string& name = collection.meshes[at(mesh.mesh)].name;
-            write_labels(folder + "/labels/" + name + ".seg", labels[k].part);
-            write_labels(folder + "/patches/" + name + ".seg", labels[k].patch);
-            write_colored_ply(folder + "/ply/" + name + ".ply", mesh.input, labels[k].part,
-                              labels[k].confidence);
+            write_labels(result_files::path_of(result_files::parts, folder, name), labels[k].part);
+            write_labels(result_files::path_of(result_files::patches, folder, name), labels[k].patch);
+            write_colored_ply(result_files::path_of(result_files::colored_meshes, folder, name), mesh.input,
+                              labels[k].part, labels[k].confidence);
         }
     });
 }
@@ -187,7 +188,7 @@ void write_affinity_picture(const Comm& comm, const std::string& folder, const R
         affinity_picture(comm, coefficients, outcome.cut.part_of_patch, outcome.parts, picture_bins);
     agree(comm, [&] {
         if (comm.is_root())
-            write_png(folder + "/affinity.png", affinity_image(picture.rows, picture.part_ends));
+            write_png(folder + "/" + result_files::affinity, affinity_image(picture.rows, picture.part_ends));
     });
 }
 

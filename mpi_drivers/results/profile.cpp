@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "io/data_files/result_files.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/reports/trace_file.hpp"
 #include "solvers/petsc/petsc_log.hpp"
@@ -57,8 +58,8 @@ void write_profile(const Comm& comm, const std::string& folder, const ProcessOpt
     const std::string text = stage_table(comm, log) + "\n" + petsc_log_text(comm);
     agree(comm, [&] {
         if (!comm.is_root()) return;
-        write_trace(folder + "/trace.json", traces);
-        write_file(folder + "/profile.txt", text);
+        write_trace(folder + "/" + result_files::trace, traces);
+        write_file(folder + "/" + result_files::profile, text);
     });
     if (comm.is_root() && !options.quiet && !options.json_log) std::fputs(text.c_str(), stderr);
 }

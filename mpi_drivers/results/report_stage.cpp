@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "io/data_files/result_files.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/folders/finished_run.hpp"
 #include "io/reports/report_page.hpp"
@@ -105,7 +106,7 @@ void write_html_report(const Comm& comm, const FinishedInput& input, const std::
         page.report_json = read_regular_file(report_path(input.folder));
         const std::string sheet = input.folder + "/" + sheet_file(to_string(SheetColoring::parts));
         if (std::filesystem::exists(sheet)) page.sheet_png = read_regular_file(sheet);
-        write_report_page(out + "/report.html", page);
+        write_report_page(out + "/" + result_files::page, page);
     });
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "io/data_files/result_files.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "src/base/error.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -32,6 +33,12 @@ std::optional<RunState> opened_state(const Comm& comm, const OutputOptions& outp
                                    process.checkpoint_seconds);
 }
 
+std::vector<std::string> folders_of_meshes() {
+    std::vector<std::string> folders{result_files::levels};
+    for (const MeshResult& result : result_files::of_meshes) folders.emplace_back(result.folder);
+    return folders;
+}
+
 void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::string& out) {
     namespace fs = std::filesystem;
     std::error_code ignored;
@@ -41,7 +48,7 @@ void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::s
         if (entry.polygons != nullptr) continue;
         const fs::path parent = fs::absolute(entry.path).parent_path();
         if (!seen.insert(parent).second) continue;
-        for (const char* own : {"labels", "patches", "ply", "levels"}) {
+        for (const std::string& own : folders_of_meshes()) {
             if (!fs::equivalent(parent, results / own, ignored)) continue;
             throw Error(ExitCode::output, entry.path + ": lies in the folder " + own +
                                               "/ of the results, which the run replaces; name another --out");

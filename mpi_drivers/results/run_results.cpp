@@ -2,9 +2,11 @@
 
 #include <vector>
 
+#include "io/data_files/result_files.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/folders/finished_run.hpp"
 #include "io/reports/report_page.hpp"
+#include "mpi_drivers/finished_runs/sheet_stage.hpp"
 #include "mpi_drivers/results/alignment_output.hpp"
 #include "mpi_drivers/results/level_output.hpp"
 #include "mpi_drivers/results/picture_stage.hpp"
@@ -18,7 +20,8 @@ namespace {
 /// read.
 std::vector<std::string> written_meshes(const std::string& folder, const Collection& collection) {
     std::vector<std::string> paths;
-    for (const MeshFacts& mesh : collection.meshes) paths.push_back(folder + "/ply/" + mesh.name + ".ply");
+    for (const MeshFacts& mesh : collection.meshes)
+        paths.push_back(result_files::path_of(result_files::colored_meshes, folder, mesh.name));
     return paths;
 }
 
@@ -51,7 +54,7 @@ std::string write_results(const Comm& comm, const std::string& folder, const Run
         log.begin("picture");
         write_run_sheet(comm, folder, outcome, options.view);
         write_affinity_picture(comm, folder, outcome);
-        log.end(options.folder + "/contact_sheet.png");
+        log.end(options.folder + "/" + sheet_file(to_string(SheetColoring::parts)));
     }
     std::string report = run_report(comm, outcome, log);
     agree(comm, [&] {
@@ -61,7 +64,7 @@ std::string write_results(const Comm& comm, const std::string& folder, const Run
         log.begin("page");
         write_html_report(comm, {folder, written_meshes(folder, outcome.collection), ""}, folder,
                           options.view);
-        log.end(options.folder + "/report.html");
+        log.end(options.folder + "/" + result_files::page);
     }
     return report;
 }
