@@ -8,6 +8,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
+#include "io/files/folder_entries.hpp"
 #include "io/files/number_text.hpp"
 #include "io/files/text_cursor.hpp"
 #include "io/files/text_encoding.hpp"
@@ -17,12 +18,11 @@
 namespace coseg {
 
 std::vector<std::string> label_file_names(const std::string& folder) {
-    namespace fs = std::filesystem;
     std::error_code cause;
     std::vector<std::string> names;
-    for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end; entry.increment(cause)) {
-        const std::string name = entry->path().stem().string();
-        if (entry->path().extension() == label_suffix && !name.starts_with('.')) names.push_back(name);
+    for (const std::filesystem::path& path : folder_entries(folder, cause)) {
+        const std::string name = path.stem().string();
+        if (path.extension() == label_suffix && !name.starts_with('.')) names.push_back(name);
     }
     if (cause) throw Error(ExitCode::input, folder + ": the folder cannot be read (" + cause.message() + ")");
     std::sort(names.begin(), names.end());

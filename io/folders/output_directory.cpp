@@ -17,6 +17,7 @@
 #include "io/data_files/result_files.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
+#include "io/files/folder_entries.hpp"
 #include "io/folders/absolute_folder.hpp"
 #include "io/folders/state_lock.hpp"
 #include "src/base/error.hpp"
@@ -61,8 +62,8 @@ constexpr const char* partial_mark = ".partial-";
 bool is_empty_or_missing(const fs::path& path) {
     std::error_code cause;
     if (!fs::exists(path, cause)) return true;
-    for (fs::directory_iterator entry(path, cause), end; !cause && entry != end; entry.increment(cause)) {
-        if (!entry->path().filename().string().starts_with(partial_mark)) return false;
+    for (const fs::path& entry : folder_entries(path, cause)) {
+        if (!entry.filename().string().starts_with(partial_mark)) return false;
     }
     return !cause;
 }
@@ -104,14 +105,11 @@ bool is_of_dead_process(const std::string& number) {
 void remove_leftovers(const fs::path& prefix) {
     const std::string mark = prefix.filename().string();
     std::error_code ignored;
-    std::vector<fs::path> leftovers;
-    for (fs::directory_iterator entry(prefix.parent_path(), ignored), end; !ignored && entry != end;
-         entry.increment(ignored)) {
-        const std::string name = entry->path().filename().string();
+    for (const fs::path& entry : folder_entries(prefix.parent_path(), ignored)) {
+        const std::string name = entry.filename().string();
         if (name.starts_with(mark) && is_of_dead_process(name.substr(mark.size())))
-            leftovers.push_back(entry->path());
+            fs::remove_all(entry, ignored);
     }
-    for (const fs::path& leftover : leftovers) fs::remove_all(leftover, ignored);
 }
 
 void move_entry(const fs::path& from, const fs::path& to) {
@@ -123,56 +121,35 @@ void move_entry(const fs::path& from, const fs::path& to) {
 /// Files of meshes, or pages of pictures, that `fresh` does not bring anew. `folder` lies below both.
 void remove_stale(const std::string& folder, const std::string& suffix, const fs::path& old,
                   const fs::path& fresh) {
-    std::error_code cause;
-    std::vector<fs::path> stale;
-    for (fs::directory_iterator entry(old / folder, cause), end; !cause && entry != end;
-         entry.increment(cause)) {
-        const fs::path name = entry->path().filename();
+    remove_earlier_files(old / folder, [&](const fs::path& path) {
         std::error_code ignored;
-        if (name.extension() == suffix && !entry->is_directory(ignored) &&
-            !fs::exists(fresh / folder / name, ignored)) {
-            stale.push_back(entry->path());
-        }
-    }
-    for (const fs::path& path : stale) {
-        fs::remove(path, cause);
-        if (cause) fail(path, "the earlier result cannot be removed", cause);
-    }
+        return path.extension() == suffix && !fs::exists(fresh / folder / path.filename(), ignored);
+    });
 }
 
 /// The same for the folders of levels, of which those that become empty go too.
 void remove_stale_levels(const fs::path& old, const fs::path& fresh) {
-    std::error_code cause;
-    std::vector<std::string> levels;
-    for (fs::directory_iterator entry(old / result_files::levels, cause), end; !cause && entry != end;
-         entry.increment(cause))
-        levels.push_back(result_files::levels + ("/" + entry->path().filename().string()));
-    for (const std::string& level : levels) {
+    std::error_code ignored;
+    for (const fs::path& entry : folder_entries(old / result_files::levels, ignored)) {
+        const std::string level = result_files::levels + ("/" + entry.filename().string());
         remove_stale(level, label_suffix, old, fresh);
-        std::error_code ignored;
-        if (fs::is_empty(old / level, ignored)) fs::remove(old / level, ignored);
+        if (fs::is_empty(entry, ignored)) fs::remove(entry, ignored);
     }
-    if (fs::is_empty(old / result_files::levels, cause)) fs::remove(old / result_files::levels, cause);
+    if (fs::is_empty(old / result_files::levels, ignored)) fs::remove(old / result_files::levels, ignored);
 }
 
 std::vector<fs::path> entries_of(const fs::path& folder) {
     std::error_code cause;
-    std::vector<fs::path> entries;
-    for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end; entry.increment(cause))
-        entries.push_back(entry->path());
+    std::vector<fs::path> entries = folder_entries(folder, cause);
     if (cause) fail(folder, "cannot be read", cause);
-    std::sort(entries.begin(), entries.end());
     return entries;
 }
 
 void remove_stale_files(const fs::path& old, const fs::path& fresh) {
-    for (const fs::path& path : entries_of(old)) {
-        const std::string name = path.filename().string();
-        std::error_code cause;
-        if (!is_of_some_runs(name) || fs::exists(fresh / name, cause)) continue;
-        fs::remove(path, cause);
-        if (cause) fail(path, "the earlier result cannot be removed", cause);
-    }
+    remove_earlier_files(old, [&](const fs::path& path) {
+        std::error_code ignored;
+        return is_of_some_runs(path.filename().string()) && !fs::exists(fresh / path.filename(), ignored);
+    });
 }
 
 /// Moves the content of `from` into `to`, folder by folder, replacing files of the same name.

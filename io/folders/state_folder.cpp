@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/files/atomic_file.hpp"
+#include "io/files/folder_entries.hpp"
 #include "io/folders/absolute_folder.hpp"
 #include "src/base/error.hpp"
 
@@ -59,8 +60,8 @@ bool is_temporary(const fs::path& path) {
 /// Others may be making the same folder at this moment.
 bool holds_other_things(const std::string& path) {
     std::error_code cause;
-    for (fs::directory_iterator entry(path, cause), end; !cause && entry != end; entry.increment(cause)) {
-        if (!entry->path().filename().string().starts_with(mark_name)) return true;
+    for (const fs::path& entry : folder_entries(path, cause)) {
+        if (!entry.filename().string().starts_with(mark_name)) return true;
     }
     if (cause) fail(path, "the state folder cannot be read", cause);
     return false;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "io/files/file_contents.hpp"
+#include "io/files/folder_entries.hpp"
 #include "io/files/text_encoding.hpp"
 #include "io/mesh_files/mesh_format.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
@@ -60,10 +61,9 @@ class MeshListExpander {
     void add_directory(const fs::path& folder, const std::string& where) {
         std::error_code cause;
         const std::size_t before = found_.size();
-        for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end;
-             entry.increment(cause)) {
-            const bool is_hidden = entry->path().filename().string().starts_with(".");
-            if (!is_hidden && has_mesh_extension(entry->path().string())) add_entry(entry->path());
+        for (const fs::path& path : folder_entries(folder, cause)) {
+            const bool is_hidden = path.filename().string().starts_with(".");
+            if (!is_hidden && has_mesh_extension(path.string())) add_entry(path);
         }
         if (cause) fail(where + folder.string() + ": the folder cannot be read (" + cause.message() + ")");
         if (found_.size() == before) {

@@ -12,6 +12,7 @@
 #include "io/data_files/label_file.hpp"
 #include "io/data_files/name_file.hpp"
 #include "io/files/atomic_file.hpp"
+#include "io/files/folder_entries.hpp"
 #include "io/mesh_files/off_format.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
@@ -64,13 +65,9 @@ bool is_generated_name(const std::string& stem) {
 
 /// So that a smaller collection written over a larger one does not mix with its rest.
 void remove_earlier_shapes(const fs::path& folder, const std::string& extension) {
-    if (!fs::is_directory(folder)) return;
-    std::vector<fs::path> earlier;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const fs::path& path = entry.path();
-        if (path.extension() == extension && is_generated_name(path.stem().string())) earlier.push_back(path);
-    }
-    for (const fs::path& path : earlier) fs::remove(path);
+    remove_earlier_files(folder, [&](const fs::path& path) {
+        return path.extension() == extension && is_generated_name(path.stem().string());
+    });
 }
 
 void prepare_folders(const GenerateOptions& options) {
@@ -85,7 +82,7 @@ void prepare_folders(const GenerateOptions& options) {
                             "' is not empty; name another with --out, or write into it with --force");
         }
         remove_earlier_shapes(out / "meshes", ".off");
-        remove_earlier_shapes(out / "truth", ".seg");
+        remove_earlier_shapes(out / "truth", label_suffix);
         fs::create_directories(out / "meshes");
         fs::create_directories(out / "truth");
     } catch (const fs::filesystem_error& error) {
@@ -105,7 +102,7 @@ void write_shape(const GenerateOptions& options, int index) {
     const LabeledShape shape = generate_shape(options.family, options.seed, index, options.faces);
     const std::string name = shape_name(options.family, index, options.count);
     write_off(options.out + "/meshes/" + name + ".off", shape.mesh);
-    write_labels(options.out + "/truth/" + name + ".seg", shape.face_label);
+    write_labels(options.out + "/truth/" + name + label_suffix, shape.face_label);
 }
 
 /// Collective over the invocation's ranks.

@@ -1,6 +1,5 @@
 #include "mpi_drivers/finished_runs/annotator_score.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -24,12 +23,9 @@ std::vector<std::string> annotations_of(const std::string& folder, const std::st
     std::vector<std::string> paths;
     const fs::path own = fs::path(folder) / name;
     if (!fs::is_directory(own)) return paths;
-    for (const fs::directory_entry& entry : fs::directory_iterator(own)) {
-        const std::string file = entry.path().filename().string();
-        if (file.starts_with(name + "_") && entry.path().extension() == label_suffix)
-            paths.push_back(entry.path().string());
+    for (const std::string& annotation : label_file_names(own.string())) {
+        if (annotation.starts_with(name + "_")) paths.push_back((own / (annotation + label_suffix)).string());
     }
-    std::sort(paths.begin(), paths.end());
     return paths;
 }
 

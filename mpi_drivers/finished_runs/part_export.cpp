@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/files/folder_entries.hpp"
 #include "io/mesh_files/mesh_reader.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
@@ -45,16 +46,12 @@ std::string file_of(const FaceArrays& arrays, int part, int piece) {
 
 /// Removes the parts of an earlier export, which may be others.
 void remove_parts(const std::string& folder, std::string_view suffix) {
-    std::error_code ignored;
-    std::vector<std::filesystem::path> earlier;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().filename().string();
+    remove_earlier_files(folder, [&](const std::filesystem::path& path) {
+        const std::string name = path.filename().string();
         const std::size_t digit = std::string_view("part_").size();
-        const bool is_part = name.starts_with("part_") && name.ends_with(suffix) && name.size() > digit &&
-                             name[digit] >= '0' && name[digit] <= '9';
-        if (is_part && entry.is_regular_file(ignored)) earlier.push_back(entry.path());
-    }
-    for (const std::filesystem::path& path : earlier) std::filesystem::remove(path, ignored);
+        return name.starts_with("part_") && name.ends_with(suffix) && name.size() > digit &&
+               name[digit] >= '0' && name[digit] <= '9';
+    });
 }
 
 /// The values of these faces only.

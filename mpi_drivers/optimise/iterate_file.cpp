@@ -6,6 +6,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "io/files/folder_entries.hpp"
 #include "io/files/record_file.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
 #include "src/base/index.hpp"
@@ -51,9 +52,8 @@ std::string iterate_path(const std::string& folder, int generation, BlockRange c
 
 std::vector<IterateFile> iterate_files(const std::string& folder) {
     std::vector<std::string> paths;
-    std::error_code cause;
-    for (fs::directory_iterator entry(folder, cause), end; !cause && entry != end; entry.increment(cause))
-        paths.push_back(entry->path().string());
+    std::error_code ignored;
+    for (const fs::path& path : folder_entries(folder, ignored)) paths.push_back(path.string());
     return iterate_files_of(paths);
 }
 

@@ -1,10 +1,10 @@
 #include "mpi_drivers/optimise/solver_checkpoint_files.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <span>
 
+#include "io/files/folder_entries.hpp"
 #include "io/files/record_file.hpp"
 #include "io/files/record_hash.hpp"
 #include "mpi_drivers/process/source_fingerprint.hpp"
@@ -90,14 +90,12 @@ void SolverCheckpointFiles::open(const SubspaceProblem& problem, const SolveOpti
     files_.clear();
     loaded_.clear();
     pending_.clear();
-    std::error_code cause;
-    for (fs::directory_iterator entry(folder_, cause), end; !cause && entry != end; entry.increment(cause)) {
-        const std::optional<BlockRange> columns = columns_of(entry->path().filename().string());
+    std::error_code ignored;
+    for (const fs::path& path : folder_entries(folder_, ignored)) {
+        const std::optional<BlockRange> columns = columns_of(path.filename().string());
         if (columns && columns->begin < owned.end && columns->end > owned.begin)
-            files_.push_back({*columns, entry->path().string()});
+            files_.push_back({*columns, path.string()});
     }
-    std::sort(files_.begin(), files_.end(),
-              [](const TileFile& a, const TileFile& b) { return a.path < b.path; });
     stop_ = std::make_unique<SharedCounter>(comm_);
     last_write_ = last_look_ = Clock::now();
 }
