@@ -8,13 +8,17 @@
 // fixed length; an optional value as a vector of none or one.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "io/files/hdf5_file.hpp"
+#include "io/files/number_text.hpp"
 #include "src/base/enum_names.hpp"
 #include "src/base/error.hpp"
 #include "src/records/fields.hpp"
@@ -71,16 +75,29 @@ void write_scalars(Hdf5Writer& file, const std::string& name, const Range& value
     }
 }
 
-/// Whether a number of a file is that of a value of T: a truth value is 0 or 1, an enumerator has a name.
-template <class T>
-bool stands_for_value(Kept<T> number) {
+/// Whether a number of a file is that of a value of T: a truth value is 0 or 1, an enumerator has a name, and
+/// a number is not beyond those of T. Unsigned numbers as wide as the file's own may stand there with a sign.
+template <class T, class Number>
+bool stands_for_value(Number number) {
     if constexpr (std::is_same_v<T, bool>) {
         return number == 0 || number == 1;
     } else if constexpr (std::is_enum_v<T>) {
-        return !name_of(static_cast<T>(number)).empty();
+        return std::in_range<std::underlying_type_t<T>>(number) && !name_of(static_cast<T>(number)).empty();
+    } else if constexpr (std::is_floating_point_v<T>) {
+        return !std::isfinite(number) || std::abs(number) <= Number{std::numeric_limits<T>::max()};
     } else {
-        return true;
+        return sizeof(T) == sizeof(Number) || std::in_range<T>(number);
     }
+}
+
+/// The value for which a number of the file stands. Throws Error(input) where it stands for none.
+template <class T, class Number>
+T value_of(const Hdf5Reader& file, const std::string& name, Number number) {
+    if (stands_for_value<T>(number)) return static_cast<T>(number);
+    std::string text;
+    append_number(text, number, ',');
+    throw Error(ExitCode::input,
+                file.path() + ": '" + name + "' holds " + text + " which stands for nothing");
 }
 
 template <class T>
@@ -90,12 +107,7 @@ std::vector<T> read_scalars(const Hdf5Reader& file, const std::string& name) {
         return numbers;
     } else {
         std::vector<T> values;
-        for (const auto number : numbers) {
-            if (!stands_for_value<T>(number))
-                throw Error(ExitCode::input, file.path() + ": '" + name + "' holds " +
-                                                 std::to_string(number) + ", which stands for nothing");
-            values.push_back(static_cast<T>(number));
-        }
+        for (const auto number : numbers) values.push_back(value_of<T>(file, name, number));
         return values;
     }
 }
@@ -335,16 +347,26 @@ void write_record(Hdf5Writer& file, const std::string& path, const R& record) {
     });
 }
 
-/// Reads what write_record has written. Throws Error(input) where a field is not there.
+/// The attribute of the root that holds a number, a truth value or an enumerator. Throws Error(input) where
+/// it is not there or holds what is no value of T.
+template <Scalar T>
+T read_scalar(const Hdf5Reader& file, const std::string& name) {
+    if constexpr (std::is_floating_point_v<T>) {
+        return record_file::value_of<T>(file, name, file.number(name));
+    } else {
+        return record_file::value_of<T>(file, name, file.integer(name));
+    }
+}
+
+/// Reads what write_record has written. Throws Error(input) where a field is not there, or holds what is no
+/// value of its type.
 template <Record R>
 void read_record(const Hdf5Reader& file, const std::string& path, R& record) {
     for_each_field(record, [&](const auto& entry, auto& member) {
         using T = std::remove_cvref_t<decltype(member)>;
         const std::string name = record_file::path_of(path, entry);
-        if constexpr (std::is_floating_point_v<T>) {
-            member = static_cast<T>(file.number(name));
-        } else if constexpr (Scalar<T>) {
-            member = static_cast<T>(file.integer(name));
+        if constexpr (Scalar<T>) {
+            member = read_scalar<T>(file, name);
         } else if constexpr (std::is_same_v<T, std::string>) {
             member = file.text(name);
         } else if constexpr (kinds::is_vector<T>) {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "tests/support/errors.hpp"
 #include "tests/support/every_kind.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -99,6 +101,42 @@ TEST(RecordFile, NumbersThatStandForNothingAreRefused) {
     EXPECT_TRUE(is_refused<test::Metal>(-1));
     EXPECT_FALSE(is_refused<bool>(1));
     EXPECT_TRUE(is_refused<bool>(2));
+}
+
+/// The sentence with which a record of Numbers is refused in whose file this field has this value; "" where
+/// it is read.
+template <class Value>
+std::string refusal(const std::string& field, Value value) {
+    const TemporaryFolder folder;
+    const std::string name = folder.path("numbers.h5");
+    Hdf5Writer writer(name, "coseg test", 1);
+    for (const char* other : {"truth", "small", "large", "hash", "metal"})
+        if (other != field) writer.attribute(other, std::int64_t{1});
+    for (const char* other : {"real", "single"})
+        if (other != field) writer.attribute(other, 1.0);
+    writer.attribute(field, value);
+    writer.commit();
+    test::Numbers numbers;
+    return test::error_of([&] { read_record(Hdf5Reader(name, "coseg test", 1), "", numbers); }).sentence;
+}
+
+TEST(RecordFile, ANumberThatDoesNotFitItsFieldIsRefused) {
+    const std::int64_t beyond = (std::int64_t{1} << 32) + 7;
+    for (const std::int64_t small : {beyond, -beyond, std::int64_t{1} << 31}) {
+        const std::string sentence = refusal("small", small);
+        EXPECT_NE(sentence.find("'small' holds " + std::to_string(small) + ", which stands for nothing"),
+                  std::string::npos)
+            << sentence;
+    }
+    EXPECT_EQ(refusal("small", std::int64_t{std::numeric_limits<int>::min()}), "");
+    EXPECT_EQ(refusal("large", beyond), "");
+    EXPECT_EQ(refusal("hash", std::int64_t{-1}), "");
+    EXPECT_NE(refusal("truth", std::int64_t{2}).find("'truth' holds 2, "), std::string::npos);
+    EXPECT_NE(refusal("metal", std::int64_t{2}).find("'metal' holds 2, "), std::string::npos);
+    EXPECT_NE(refusal("metal", std::int64_t{1} << 32).find("'metal' holds 4294967296, "), std::string::npos);
+    EXPECT_NE(refusal("single", 1e39).find("'single' holds 1e+39, "), std::string::npos);
+    EXPECT_EQ(refusal("real", 1e300), "");
+    EXPECT_EQ(refusal("single", std::numeric_limits<double>::infinity()), "");
 }
 
 TEST(RecordFile, MatricesOfImpossibleSizesAreRefused) {
