@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "io/data_files/result_files.hpp"
 #include "io/files/hdf5_file.hpp"
@@ -39,65 +40,103 @@ std::vector<int> kept_meshes(const std::vector<MeshFacts>& meshes, std::uint64_t
     return order;
 }
 
+/// An option of a stage that a model keeps.
+template <class Stage, class T>
+struct KeptOption {
+    const char* name;  ///< in the file
+    Stage RunOptions::*stage;
+    T Stage::*member;
+
+    [[nodiscard]] const T& in(const RunOptions& options) const { return options.*stage.*member; }
+    [[nodiscard]] T& in(RunOptions& options) const { return options.*stage.*member; }
+};
+template <class Stage, class T>
+constexpr KeptOption<Stage, T> kept_option(const char* name, Stage RunOptions::*stage, T Stage::*member) {
+    return {name, stage, member};
+}
+
+/// Calls visit(option) for all of them in the order of the file. The seed is that of every stage.
+template <class Visit>
+void for_each_kept_option(Visit&& visit) {
+    constexpr auto description = &RunOptions::description;
+    constexpr auto features = &RunOptions::features;
+    constexpr auto optimise = &RunOptions::optimise;
+    visit(kept_option("parts", &RunOptions::partition, &PartitionOptions::parts));
+    visit(kept_option("seed", description, &DescriptionOptions::seed));
+    visit(kept_option("weld", description, &DescriptionOptions::weld));
+    visit(kept_option("remesh", description, &DescriptionOptions::remesh));
+    visit(kept_option("patches", description, &DescriptionOptions::patches));
+    visit(kept_option("oversegmentations", description, &DescriptionOptions::oversegmentations));
+    visit(kept_option("cut-noise", description, &DescriptionOptions::cut_noise));
+    visit(kept_option("geodesic-samples", description, &DescriptionOptions::geodesic_samples));
+    visit(kept_option("bins", features, &FeatureOptions::bins));
+    visit(kept_option("word-sets", features, &FeatureOptions::word_sets));
+    visit(kept_option("histogram", features, &FeatureOptions::histogram));
+    visit(kept_option("ranges", features, &FeatureOptions::ranges));
+    visit(kept_option("feature-weights", features, &FeatureOptions::weights));
+    visit(kept_option("face-feature-weight", features, &FeatureOptions::face_feature_weight));
+    visit(kept_option("alpha", optimise, &OptimiseOptions::alpha));
+    visit(kept_option("beta", optimise, &OptimiseOptions::beta));
+    visit(kept_option("lambda", optimise, &OptimiseOptions::lambda));
+    visit(kept_option("gap", optimise, &OptimiseOptions::gap));
+    visit(kept_option("refine", &RunOptions::output, &OutputOptions::refine));
+}
+
+template <class T>
+void write_option(Hdf5Writer& file, const std::string& name, const T& value) {
+    if constexpr (std::is_floating_point_v<T>) {
+        file.attribute(name, value);
+    } else if constexpr (std::is_integral_v<T>) {
+        file.attribute(name, static_cast<std::int64_t>(value));
+    } else if constexpr (kinds::is_vector<T>) {
+        file.write(name, value);
+    } else {
+        file.attribute(name, to_string(value));
+    }
+}
+
 void write_options(Hdf5Writer& file, const RunOptions& options) {
     file.attribute("source_fingerprint", source_fingerprint(KeptPiece::features));
-    const DescriptionOptions& description = options.description;
-    file.attribute("parts", std::int64_t{options.partition.parts});
-    file.attribute("seed", static_cast<std::int64_t>(description.seed));
-    file.attribute("weld", to_string(description.weld));
-    file.attribute("remesh", to_string(description.remesh));
-    file.attribute("patches", std::int64_t{description.patches});
-    file.attribute("oversegmentations", std::int64_t{description.oversegmentations});
-    file.attribute("cut-noise", description.cut_noise);
-    file.attribute("geodesic-samples", std::int64_t{description.geodesic_samples});
-    file.attribute("bins", std::int64_t{options.features.bins});
-    file.attribute("word-sets", std::int64_t{options.features.word_sets});
-    file.attribute("histogram", to_string(options.features.histogram));
-    file.attribute("ranges", to_string(options.features.ranges));
-    file.write("feature-weights", options.features.weights);
-    file.attribute("face-feature-weight", options.features.face_feature_weight);
-    file.attribute("alpha", options.optimise.alpha);
-    file.attribute("beta", options.optimise.beta);
-    file.attribute("lambda", options.optimise.lambda);
-    file.attribute("gap", options.optimise.gap);
-    file.attribute("refine", to_string(options.output.refine));
+    for_each_kept_option([&](const auto& option) { write_option(file, option.name, option.in(options)); });
 }
 
-template <NamedEnum E>
-E read_enum(const Hdf5Reader& file, const std::string& name) {
-    const std::optional<E> value = named<E>(file.text(name));
-    if (value) return *value;
-    throw Error(ExitCode::input, file.path() + ": '" + name + "' has an unknown value; run coseg run again");
+/// What a text says: an enumerator of T, or how borders are welded.
+template <class T>
+std::optional<T> said_by(const std::string& text) {
+    if constexpr (std::is_same_v<T, WeldChoice>) {
+        return parsed_weld(text);
+    } else {
+        return named<T>(text);
+    }
 }
 
-WeldChoice read_weld(const Hdf5Reader& file) {
-    const std::optional<WeldChoice> weld = parsed_weld(file.text("weld"));
-    if (weld) return *weld;
-    throw Error(ExitCode::input, file.path() + ": 'weld' has an unknown value; run coseg run again");
+template <class T>
+void read_option(const Hdf5Reader& file, const std::string& name, T& value) {
+    if constexpr (std::is_arithmetic_v<T>) {
+        value = read_scalar<T>(file, name);
+    } else if constexpr (kinds::is_vector<T>) {
+        value = file.read<typename T::value_type>(name);
+    } else {
+        const std::optional<T> said = said_by<T>(file.text(name));
+        if (!said)
+            throw Error(ExitCode::input,
+                        file.path() + ": '" + name + "' has an unknown value; run coseg run again");
+        value = *said;
+    }
 }
 
 RunOptions read_options(const Hdf5Reader& file) {
-    const auto number = [&](const char* name) { return static_cast<int>(file.integer(name)); };
     RunOptions options;
-    set_seed(options, static_cast<std::uint64_t>(file.integer("seed")));
-    options.partition.parts = number("parts");
-    options.description.weld = read_weld(file);
-    options.description.remesh = read_enum<RemeshMode>(file, "remesh");
-    options.description.patches = number("patches");
-    options.description.oversegmentations = number("oversegmentations");
-    options.description.cut_noise = file.number("cut-noise");
-    options.description.geodesic_samples = number("geodesic-samples");
-    options.features.bins = number("bins");
-    options.features.word_sets = number("word-sets");
-    options.features.histogram = read_enum<HistogramScaling>(file, "histogram");
-    options.features.ranges = read_enum<BinRanges>(file, "ranges");
-    options.features.weights = file.read<double>("feature-weights");
-    options.features.face_feature_weight = file.number("face-feature-weight");
-    options.optimise.alpha = file.number("alpha");
-    options.optimise.beta = file.number("beta");
-    options.optimise.lambda = file.number("lambda");
-    options.optimise.gap = file.number("gap");
-    options.output.refine = read_enum<RefineMode>(file, "refine");
+    for_each_kept_option([&](const auto& option) { read_option(file, option.name, option.in(options)); });
+    set_seed(options, options.description.seed);
+    return options;
+}
+
+/// Those that a model's file keeps, and defaults elsewhere.
+RunOptions kept_options(const RunOptions& run) {
+    RunOptions options;
+    for_each_kept_option([&](const auto& option) { option.in(options) = option.in(run); });
+    set_seed(options, options.description.seed);
     return options;
 }
 
@@ -132,7 +171,7 @@ FeatureBins read_bins(const Hdf5Reader& file, const Descriptor& descriptor) {
 
 void read_features(const Hdf5Reader& file, RunModel& model) {
     std::vector<Descriptor> table = descriptor_table();
-    model.face_feature_dimensions = static_cast<int>(file.integer("face-feature-dimensions"));
+    model.face_feature_dimensions = read_scalar<int>(file, "face-feature-dimensions");
     if (model.face_feature_dimensions > 0)
         table.push_back(face_features_descriptor(model.face_feature_dimensions,
                                                  model.options.features.face_feature_weight));
@@ -172,22 +211,6 @@ bool fits_together(const RunModel& model) {
            model.options.description.oversegmentations > 0 &&
            below(model.part_of_patch, static_cast<std::size_t>(std::max(model.options.partition.parts, 0))) &&
            places_fit(model.places, patches);
-}
-
-/// Those that a model's file keeps, and defaults elsewhere.
-RunOptions kept_options(const RunOptions& run) {
-    RunOptions options;
-    options.description = run.description;
-    options.features = run.features;
-    options.features.face_features.clear();
-    set_seed(options, run.description.seed);
-    options.partition.parts = run.partition.parts;
-    options.optimise.alpha = run.optimise.alpha;
-    options.optimise.beta = run.optimise.beta;
-    options.optimise.lambda = run.optimise.lambda;
-    options.optimise.gap = run.optimise.gap;
-    options.output.refine = run.output.refine;
-    return options;
 }
 
 /// The meshes of kept patches, in the order in which both a file and a model in memory have them.
