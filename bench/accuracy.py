@@ -28,13 +28,12 @@ import random
 import re
 import shlex
 import statistics
-import subprocess
 import sys
 import tempfile
 import textwrap
 import time
 
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from program import PROGRAM, PROJECT, RunFailed, command_output, markdown, read_labels, write_whole
 
 # Categories of the Princeton benchmark, twenty meshes each in the order of their numbers, with the number of labels of
 # Kalogerakis, Hertzmann, Singh 2010 (which leave the springs out).
@@ -47,16 +46,11 @@ MEASURES = [("rand_index_error", "Rand index error"), ("cut_discrepancy", "cut d
             ("local_consistency_error", "local consistency error")]
 
 
-class RunFailed(Exception):
-    pass
-
-
 def truth_labels(folder):
     labels = set()
     for name in os.listdir(folder):
         if name.endswith(".seg"):
-            with open(os.path.join(folder, name)) as lines:
-                labels.update(int(word) for word in lines.read().split())
+            labels.update(read_labels(os.path.join(folder, name)))
     return len({label for label in labels if label >= 0})
 
 
@@ -174,16 +168,6 @@ def turned_sets(sets, folder):
     return turned
 
 
-def command_output(words, timeout=None):
-    try:
-        result = subprocess.run(words, capture_output=True, text=True, timeout=timeout)
-    except subprocess.TimeoutExpired as expired:
-        raise RunFailed(f"{shlex.join(words)} took more than {timeout} s") from expired
-    if result.returncode != 0:
-        raise RunFailed(f"{shlex.join(words)} ended with {result.returncode}: {result.stderr.strip()[-500:]}")
-    return result.stdout
-
-
 def measure(args, one_set, preset, seed):
     with tempfile.TemporaryDirectory() as scratch:
         out = os.path.join(scratch, "result")
@@ -216,13 +200,6 @@ def read_figures(path):
         return {}
     with open(path) as text:
         return json.load(text)
-
-
-def write_whole(path, text):
-    """A reader, or a second call after a kill, sees the old file or the new one."""
-    with open(path + ".partial", "w") as file:
-        file.write(text)
-    os.replace(path + ".partial", path)
 
 
 def run_all(args, sets, figures):
@@ -265,12 +242,6 @@ def mean_and_deviation(values, digits=1):
 
 def mean_of(runs, key):
     return statistics.fmean(run["score"][key] for run in runs)
-
-
-def markdown(rows):
-    head, *body = rows
-    lines = ["| " + " | ".join(head) + " |", "| " + " | ".join("---" for _ in head) + " |"]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in body]) + "\n"
 
 
 def accuracy_table(figures, sets, presets, seeds):
@@ -377,7 +348,7 @@ def document(args, sets, figures):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
+    parser.add_argument("--coseg", default=PROGRAM)
     parser.add_argument("--data", default=os.environ.get("COSEG_DATA"))
     parser.add_argument("--sets", nargs="+")
     parser.add_argument("--generated", nargs="+", metavar=("SHAPES", "FAMILY"))

@@ -14,7 +14,7 @@ import os
 import sys
 import tempfile
 
-from accuracy import command_output
+from program import command_output
 
 
 def run(args, scratch, name, meshes):

@@ -21,9 +21,8 @@ import statistics
 import sys
 import tempfile
 
-from accuracy import command_output, find_sets, generated_sets, markdown, random_rotation, turned_sets
-
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from accuracy import find_sets, generated_sets, random_rotation, turned_sets
+from program import PROGRAM, markdown, one_to_one, read_off, run_labels
 
 
 def product(a, b):
@@ -46,13 +45,10 @@ def about_axis(axis, degrees):
 
 def read_points(path, most):
     """Vertices of an OFF file, every so many, centred at the middle of the bounding box, with its diagonal as the unit."""
-    with open(path) as file:
-        lines = [line for line in file.read().split("\n") if line.strip() and not line.lstrip().startswith("#")]
-    count = int(lines[1].split()[0])
-    points = [tuple(float(word) for word in line.split()[:3]) for line in lines[2:2 + count]]
+    points, _ = read_off(path)
     low, high = [min(p[a] for p in points) for a in range(3)], [max(p[a] for p in points) for a in range(3)]
     size = math.dist(low, high)
-    step = max(1, count // most)
+    step = max(1, len(points) // most)
     return [tuple((p[a] - 0.5 * (low[a] + high[a])) / size for a in range(3)) for p in points[::step]]
 
 
@@ -100,22 +96,14 @@ def errors(alignment, meshes):
     return [least_angle(own, best, t) for own, t in zip(together, turns)]
 
 
-def run_coseg(args, one_set, out, align):
-    command_output(["mpirun", "--oversubscribe", "-n", str(args.ranks), args.coseg, "run", "--quiet", "--no-sheet", "--no-html",
-                    "--no-keep-model", "--align", align, "--seed", str(args.seed), "--parts", str(one_set["parts"]), "--out", out]
-                   + one_set["meshes"])
-
-
-def accuracy(args, one_set, out):
-    score = command_output([args.coseg, "score", "--json", "--truth", one_set["truth"], "--labels", os.path.join(out, "labels")]
-                           + one_set["meshes"])
-    return json.loads(score)["one_to_one"]
+def run(args, one_set, out, align):
+    run_labels(args, one_set["parts"], out, ["--align", align, "--seed", args.seed, *one_set["meshes"]])
 
 
 def measure(args, name, one_set, scratch):
     turned = next(iter(turned_sets({name: one_set}, scratch).values()))
     out = os.path.join(scratch, name)
-    run_coseg(args, turned, out, "auto")
+    run(args, turned, out, "auto")
     with open(os.path.join(out, "alignment.json")) as file:
         alignment = json.load(file)
     found = errors(alignment, one_set["meshes"][0])
@@ -125,8 +113,8 @@ def measure(args, name, one_set, scratch):
         figures = []
         for given, mode in ((one_set, "auto"), (turned, "auto"), (turned, "off")):
             labels = out + "_labels_" + str(len(figures))
-            run_coseg(args, given, labels, mode)
-            figures.append(f"{accuracy(args, given, labels):.1f}")
+            run(args, given, labels, mode)
+            figures.append(f"{one_to_one(args, given['truth'], os.path.join(labels, 'labels'), given['meshes']):.1f}")
         row += figures
     print(" | ".join(row), flush=True)
     return row
@@ -134,7 +122,7 @@ def measure(args, name, one_set, scratch):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
+    parser.add_argument("--coseg", default=PROGRAM)
     parser.add_argument("--data", default=os.environ.get("COSEG_DATA"))
     parser.add_argument("--sets", nargs="+", default=[])
     parser.add_argument("--generated", nargs="+", default=[], metavar="FAMILY")

@@ -13,26 +13,16 @@ the full run (wall time of both, descriptions included; CPU seconds of all ranks
 import argparse
 import json
 import os
-import resource
 import shutil
 import tempfile
-import time
 
-from accuracy import command_output, mean_and_deviation, truth_labels, turn_meshes
+from accuracy import mean_and_deviation, truth_labels, turn_meshes
 from links import meshes_and_truth
+from program import command_output, timed
 
 
 def mesh_names(folder):
     return sorted(name for name in os.listdir(folder) if name.lower().endswith((".off", ".obj", ".ply", ".stl", ".glb", ".gltf", ".vtp")))
-
-
-def timed(command):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    start = time.monotonic()
-    command_output(command)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return {"wall": time.monotonic() - start,
-            "cpu": after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime}
 
 
 def accuracies(args, truth, labels, meshes):
@@ -73,7 +63,7 @@ def measure(args, folder, seed):
     def mean(values, chosen):
         return sum(values[name] for name in chosen) / len(chosen)
     return {"full": mean(of_full, stems), "assigned": mean(of_rest, stems), "rest_in_full": mean(of_full, others),
-            "rest": mean(of_rest, others), "full_seconds": full, "assign_seconds": new, "model_bytes": model,
+            "rest": mean(of_rest, others), "full_seconds": dict(zip(("wall", "cpu"), full)), "assign_seconds": dict(zip(("wall", "cpu"), new)), "model_bytes": model,
             "left": stems, "per_shape_full": [of_full[name] for name in stems],
             "per_shape_assigned": [of_rest[name] for name in stems]}
 

@@ -15,12 +15,12 @@ import itertools
 import os
 import random
 import struct
-import subprocess
 import sys
 import tempfile
 
 from accuracy import find_sets
 from examples import add_set_arguments, links
+from program import read_labels, run_labels
 
 BINS = 10
 
@@ -61,11 +61,6 @@ def polygon_area(points):
     return total
 
 
-def read_labels(path):
-    with open(path) as file:
-        return [int(word) for word in file.read().split()]
-
-
 def best_mapping(gain):
     """The label of each part such that the sum of the gains is largest; at most as many parts as labels."""
     parts, labels = len(gain), len(gain[0])
@@ -88,12 +83,11 @@ def faces_of(out, truth, names):
 def measure(arguments, sample, work):
     names = sorted(file[:-4] for file in os.listdir(sample["truth"]) if file.endswith(".seg"))
     out = os.path.join(work, "out")
-    command = ["mpirun", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html", "--seed",
-               str(arguments.seed), "--parts", str(sample["parts"]), "--out", out]
+    words = ["--seed", arguments.seed]
     given = random.Random("examples").sample(names, arguments.examples)
     if given:
-        command += ["--examples", links(os.path.join(work, "given"), sample["truth"], given)]
-    subprocess.run(command + sample["meshes"], check=True, capture_output=True)
+        words += ["--examples", links(os.path.join(work, "given"), sample["truth"], given)]
+    run_labels(arguments, sample["parts"], out, words + sample["meshes"])
     faces = faces_of(out, sample["truth"], [name for name in names if name not in given])
     size = sample["parts"]
     gain = [[0.0] * size for _ in range(size)]

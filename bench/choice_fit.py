@@ -31,10 +31,10 @@ import random
 import tempfile
 
 import numpy as np
-from accuracy import command_output, find_sets, generated_sets, labelled_meshes, markdown, write_whole
+from accuracy import find_sets, generated_sets, labelled_meshes
+from program import PROGRAM, PROJECT, command_output, markdown, write_whole
 from scipy.optimize import minimize
 
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # Sets of shapes of one kind stand for one family, whoever made them. The others are families of their own.
 KINDS = {"humans_adobe": "people", "humans_scape": "people", "generated_human": "people",
          "coseg_chairs": "chairs", "generated_chair": "chairs", "psb_airplane": "aeroplanes", "generated_airplane": "aeroplanes",
@@ -231,7 +231,7 @@ def main():
     pools.set_defaults(step=make_pools)
     add_search_options(pools, [1, 2])
     pools.add_argument("--out", required=True)
-    pools.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
+    pools.add_argument("--coseg", default=PROGRAM)
     pools.add_argument("--halves", type=int, default=2)
     pools.add_argument("--generated", type=int, default=12)
     pools.add_argument("--searches", type=int, default=8)

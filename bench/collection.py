@@ -25,17 +25,10 @@ import tempfile
 import threading
 import time
 
-from run_words import parsed_with_options
+from program import command_output, parsed_with_options
 
 TICK = os.sysconf("SC_CLK_TCK")
 LOOK_SECONDS = 0.25
-
-
-def command_output(words):
-    result = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-    if result.returncode != 0:
-        sys.exit(f"{os.path.basename(sys.argv[0])}: {' '.join(map(str, words))} ended with {result.returncode}: {result.stderr.strip()}")
-    return result.stdout
 
 
 def process_tree(root):

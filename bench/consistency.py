@@ -25,7 +25,6 @@ import collections
 import itertools
 import os
 import statistics
-import subprocess
 import sys
 import tempfile
 
@@ -34,10 +33,8 @@ import scipy.optimize
 import scipy.sparse
 import scipy.spatial
 
-from accuracy import markdown, write_whole
-from run_words import parsed_with_options
+from program import PROGRAM, markdown, parsed_with_options, read_labels, read_off, run_labels, write_whole
 
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 NEAR = (0.02, 0.05)
 NEAREST_CENTROIDS = 60
 
@@ -47,7 +44,7 @@ class Shape:
 
     def __init__(self, folder, name):
         self.name = name
-        self.points, self.faces = read_off(os.path.join(folder, name + ".off"))
+        self.points, self.faces = read_triangles(os.path.join(folder, name + ".off"))
         corners = self.points[self.faces]
         self.centroids = corners.mean(axis=1)
         self.areas = 0.5 * numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
@@ -77,19 +74,11 @@ class Shape:
         return scipy.sparse.csgraph.dijkstra(self.dual_graph(), directed=False, indices=face) / self.diagonal
 
 
-def read_off(path):
-    with open(path) as file:
-        lines = (line.split("#")[0].split() for line in file)
-        words = [line for line in lines if line]
-    if words[0][0] != "OFF":
-        sys.exit(f"consistency: {path} is not an OFF file with one keyword, OFF")
-    words = words[1:] if len(words[0]) == 1 else [words[0][1:]] + words[1:]
-    vertices, faces = int(words[0][0]), int(words[0][1])
-    points = numpy.array([[float(x) for x in line[:3]] for line in words[1:1 + vertices]])
-    rows = words[1 + vertices:1 + vertices + faces]
-    if any(row[0] != "3" for row in rows):
+def read_triangles(path):
+    points, faces = read_off(path)
+    if any(len(face) != 3 for face in faces):
         sys.exit(f"consistency: {path} has faces that are no triangles")
-    return points, numpy.array([[int(x) for x in row[1:4]] for row in rows])
+    return numpy.array(points), numpy.array(faces)
 
 
 def read_landmarks(path):
@@ -119,20 +108,11 @@ def distances_to_triangles(point, triangles):
     return numpy.where(inside, heights, best)
 
 
-def read_labels(path):
-    with open(path) as file:
-        return numpy.array([int(word) for word in file.read().split()])
-
-
 def segment(arguments, parts, seed, out, words):
     """The labels of every shape, by name, of a run with these further options and meshes."""
-    command = ["mpirun", "--oversubscribe", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html",
-               "--no-keep-model", "--force", "--parts", str(parts), "--seed", str(seed), "--out", out, *words]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
+    run_labels(arguments, parts, out, ["--seed", seed, *words])
     folder = os.path.join(out, "labels")
-    return {file[:-4]: read_labels(os.path.join(folder, file)) for file in os.listdir(folder) if file.endswith(".seg")}
+    return {file[:-4]: numpy.array(read_labels(os.path.join(folder, file))) for file in os.listdir(folder) if file.endswith(".seg")}
 
 
 def landmark_pairs(shapes, labels):
@@ -215,7 +195,7 @@ def measure(arguments, shapes, work):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
+    parser.add_argument("--coseg", default=PROGRAM)
     parser.add_argument("--parts", nargs="+", type=int, default=[3, 4, 5, 6, 8])
     parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3])
     parser.add_argument("--ranks", type=int, default=2)

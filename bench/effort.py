@@ -42,6 +42,7 @@ import numpy
 
 from accuracy import chosen_sets
 from examples import add_set_arguments
+from program import read_off, run_labels
 
 
 def check_seconds(labels):
@@ -98,19 +99,13 @@ def runs_of(labels):
 
 def face_areas(path):
     """Of the polygons of an OFF file, as shares of the whole."""
-    with open(path, encoding="latin-1") as file:
-        words = [word for line in file for word in line.split("#")[0].split()]
-    start = 1 if words[0].upper().endswith("OFF") else 0
-    vertices, faces = int(words[start]), int(words[start + 1])
-    at = start + 3
-    place = numpy.array(words[at:at + 3 * vertices], float).reshape(-1, 3)
-    at += 3 * vertices
+    points, faces = read_off(path)
+    place = numpy.array(points)
     areas = []
-    for _ in range(faces):
-        count = int(words[at])
-        corner = place[[int(word) for word in words[at + 1:at + 1 + count]]]
-        areas.append(0.5 * numpy.linalg.norm(sum(numpy.cross(corner[k] - corner[0], corner[k + 1] - corner[0]) for k in range(1, count - 1))))
-        at += 1 + count
+    for face in faces:
+        corner = place[list(face)]
+        areas.append(0.5 * numpy.linalg.norm(sum(numpy.cross(corner[k] - corner[0], corner[k + 1] - corner[0])
+                                                 for k in range(1, len(face) - 1))))
     return numpy.array(areas) / sum(areas)
 
 
@@ -233,12 +228,8 @@ def table(results):
 
 def measure(arguments, sample, work):
     run = os.path.join(work, "run")
-    command = ["mpirun", "--oversubscribe", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html",
-               "--no-keep-model", "--seed", str(arguments.seed), "--parts", str(sample["parts"]), "--state", os.path.join(work, "state"),
-               "--out", run, "--force"]
-    done = subprocess.run(command + sample["meshes"], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"effort: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
+    run_labels(arguments, sample["parts"], run,
+               ["--seed", arguments.seed, "--state", os.path.join(work, "state"), *sample["meshes"]])
     return {rule: simulate(arguments, sample, run, rule) for rule in arguments.rules}
 
 

@@ -15,30 +15,15 @@ import json
 import os
 import random
 import statistics
-import subprocess
-import sys
 import tempfile
 
 from accuracy import find_sets
+from program import PROGRAM, PROJECT, one_to_one, run_labels
 
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-
-def run_coseg(arguments, sample, state, out, options):
+def run_with_state(arguments, sample, state, out, options):
     """A run into `sample["parts"]` parts, with further options of coseg run."""
-    command = ["mpirun", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html",
-               "--no-keep-model", "--seed", str(arguments.seed), "--parts", str(sample["parts"]), "--state", state,
-               "--out", out, "--force"] + options
-    done = subprocess.run(command + sample["meshes"], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{os.path.basename(sys.argv[0])}: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
-
-
-def score(arguments, sample, truth, labels):
-    """One-to-one accuracy in percent."""
-    command = [arguments.coseg, "score", "--json", "--truth", truth, "--labels", labels] + sample["meshes"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)["one_to_one"]
+    run_labels(arguments, sample["parts"], out, ["--seed", arguments.seed, "--state", state, *options, *sample["meshes"]])
 
 
 def links(folder, source, names):
@@ -59,14 +44,14 @@ def choices_of(names, arguments):
 def measure(arguments, sample, work):
     names = sorted(file[:-4] for file in os.listdir(sample["truth"]) if file.endswith(".seg"))
     state, out = os.path.join(work, "state"), os.path.join(work, "out")
-    run_coseg(arguments, sample, state, out, [])
-    without = score(arguments, sample, sample["truth"], os.path.join(out, "labels"))
+    run_with_state(arguments, sample, state, out, [])
+    without = one_to_one(arguments, sample["truth"], os.path.join(out, "labels"), sample["meshes"])
     figures = []
     for number, given in enumerate(choices_of(names, arguments)):
         folder = links(os.path.join(work, f"given_{number}"), sample["truth"], given)
         others = links(os.path.join(work, f"others_{number}"), sample["truth"], [n for n in names if n not in given])
-        run_coseg(arguments, sample, state, out, ["--examples", folder])
-        figures.append(score(arguments, sample, others, os.path.join(out, "labels")))
+        run_with_state(arguments, sample, state, out, ["--examples", folder])
+        figures.append(one_to_one(arguments, others, os.path.join(out, "labels"), sample["meshes"]))
     return {"parts": sample["parts"], "shapes": len(names), "without": without, "choices": figures}
 
 
@@ -84,7 +69,7 @@ def table(results, examples):
 
 def add_set_arguments(parser):
     """What a measurement over labelled sets with one seed needs to know."""
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
+    parser.add_argument("--coseg", default=PROGRAM)
     parser.add_argument("--data", default=os.environ.get("COSEG_DATA", os.path.join(PROJECT, "..", "shared", "data")))
     parser.add_argument("--sets", nargs="*")
     parser.add_argument("--seed", type=int, default=1)

@@ -20,18 +20,8 @@ import pathlib
 import shutil
 import tempfile
 
-from collection import command_output, write_result
-
-
-def read_off(path):
-    words = path.read_text(encoding="ascii").split()
-    vertices, faces = int(words[1]), int(words[2])
-    numbers = list(map(float, words[4 : 4 + 3 * vertices]))
-    corners = list(map(int, words[4 + 3 * vertices : 4 + 3 * vertices + 4 * faces]))
-    return (
-        [tuple(numbers[3 * v : 3 * v + 3]) for v in range(vertices)],
-        [tuple(corners[4 * f + 1 : 4 * f + 4]) for f in range(faces)],
-    )
+from collection import write_result
+from program import command_output, read_off
 
 
 def write_off(path, vertices, faces):

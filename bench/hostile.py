@@ -32,7 +32,7 @@ import sys
 import tempfile
 import time
 
-from run_words import parsed_with_options
+from program import parsed_with_options
 
 
 class Mesh:

@@ -13,14 +13,13 @@ import os
 import tempfile
 
 from accuracy import find_sets
-from examples import run_coseg, score
-
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+from examples import run_with_state
+from program import PROGRAM, one_to_one
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
+    parser.add_argument("--coseg", default=PROGRAM)
     parser.add_argument("--data", default=os.environ.get("COSEG_DATA", ""))
     parser.add_argument("--sets", nargs="*")
     parser.add_argument("--off", type=int, nargs="+", default=[-1, 2])
@@ -38,8 +37,9 @@ def main():
                     cells.append("-")
                     continue
                 out = os.path.join(work, "run")
-                run_coseg(arguments, dict(sample, parts=parts + off), os.path.join(arguments.state or work, name), out, ["--levels"])
-                cells.append(f"{score(arguments, sample, sample['truth'], os.path.join(out, 'levels', str(parts))):.1f}")
+                run_with_state(arguments, dict(sample, parts=parts + off), os.path.join(arguments.state or work, name), out, ["--levels"])
+                level = os.path.join(out, "levels", str(parts))
+                cells.append(f"{one_to_one(arguments, sample['truth'], level, sample['meshes']):.1f}")
             print(f"| {name} ({parts}) | " + " | ".join(cells) + " |", flush=True)
 
 

@@ -13,7 +13,8 @@ import os
 import statistics
 import tempfile
 
-from accuracy import command_output, mean_and_deviation, truth_labels
+from accuracy import mean_and_deviation, truth_labels
+from program import command_output
 
 
 def meshes_and_truth(folder):

@@ -10,13 +10,12 @@ shapes of seed 1, 0 none. --state keeps what is computed of each set in DIR/SET.
 import argparse
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
 from accuracy import find_sets
+from program import PROGRAM, command_output, run_labels
 
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FAMILIES = {"cup": 2, "goblet": 3, "table": 2, "chair": 3, "lamp": 3, "airplane": 5, "pliers": 3, "quadruped": 4,
             "human": 4, "ant": 5, "octopus": 2}
 
@@ -24,25 +23,20 @@ FAMILIES = {"cup": 2, "goblet": 3, "table": 2, "chair": 3, "lamp": 3, "airplane"
 def part_count(arguments, meshes, name, work):
     state = os.path.join(arguments.state or work, name)
     out = os.path.join(work, "run")
-    command = ["mpirun", "-n", str(arguments.ranks), arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html",
-               "--no-keep-model", "--seed", str(arguments.seed), "--parts", "auto", "--state", state, "--out", out, "--force"]
-    done = subprocess.run(command + meshes, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"parts_auto: {' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-500:]}")
+    run_labels(arguments, "auto", out, ["--seed", arguments.seed, "--state", state, *meshes])
     with open(os.path.join(out, "report.json")) as file:
         return json.load(file)["partition"]["part_count"]
 
 
 def generated(arguments, family, work):
     folder = os.path.join(work, family)
-    subprocess.run([arguments.coseg, "generate", family, "--count", str(arguments.generated), "--seed", "1", "--out", folder],
-                   check=True, stdout=subprocess.DEVNULL)
+    command_output([arguments.coseg, "generate", family, "--count", arguments.generated, "--seed", 1, "--out", folder])
     return [os.path.join(folder, "meshes")]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
+    parser.add_argument("--coseg", default=PROGRAM)
     parser.add_argument("--data", default=os.environ.get("COSEG_DATA", ""))
     parser.add_argument("--sets", nargs="*")
     parser.add_argument("--generated", type=int, default=16)

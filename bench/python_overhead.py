@@ -9,12 +9,11 @@ reads the files into arrays first. The order within a pair changes from pair to 
 """
 import argparse
 import os
-import resource
 import statistics
-import subprocess
 import sys
 import tempfile
-import time
+
+from program import timed
 
 SCRIPT = """
 import sys, time
@@ -27,16 +26,6 @@ read = time.process_time()
 coseg.segment(meshes, int(sys.argv[2]), names=names, out=sys.argv[3], replace=True, sheet=False, html=False)
 print(start, read - start)
 """
-
-
-def timed(words, **more):
-    """Seconds of the wall clock and of the processor, which other work on the machine disturbs less; and what was printed."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    start = time.perf_counter()
-    answer = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True, **more)
-    seconds = time.perf_counter() - start
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return seconds, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, answer.stdout
 
 
 def summary(values):
@@ -53,7 +42,7 @@ def overhead(arguments):
         for pair in range(arguments.repeat):
             taken = {}
             for words in (program, python) if pair % 2 == 0 else (python, program):
-                taken[words[0]] = timed(words, env=environment)
+                taken[words[0]] = timed(words, environment)
             own, other = taken[program[0]], taken[python[0]]
             rows["clock"].append(other[0] / own[0])
             rows["processor"].append(other[1] / own[1])

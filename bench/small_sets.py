@@ -12,27 +12,21 @@ With --data, each seed takes a random sample of SIZE shapes of each labelled set
 table then has the mean over the samples and the lowest, and the mean of all sets.
 """
 import argparse
-import os
 import pathlib
 import random
 import statistics
-import subprocess
 import sys
 import tempfile
 
 from accuracy import find_sets, generated_sets, labelled_meshes
-from examples import score
-from run_words import parsed_with_options
+from program import PROGRAM, one_to_one, parsed_with_options, run_labels
 
-PROJECT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 MOST_BELOW = 5.0
 
 
 def accuracy(arguments, sample, seed, out):
-    run = [arguments.coseg, "run", "--quiet", "--no-sheet", "--no-html", "--force", "--no-keep-model", "--parts", str(sample["parts"]),
-           "--seed", str(seed), "--out", out] + arguments.options + sample["meshes"]
-    subprocess.run(run, check=True, capture_output=True)
-    return score(arguments, sample, sample["truth"], out + "/labels")
+    run_labels(arguments, sample["parts"], out, ["--seed", seed, *arguments.options, *sample["meshes"]])
+    return one_to_one(arguments, sample["truth"], out + "/labels", sample["meshes"])
 
 
 def sample_of(one_set, size, seed):
@@ -81,7 +75,7 @@ def measure_families(arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--coseg", default=os.path.join(PROJECT, "build", "bin", "coseg"))
+    parser.add_argument("--coseg", default=PROGRAM)
     parser.add_argument("--families", nargs="*", default=[])
     parser.add_argument("--data")
     parser.add_argument("--sets", nargs="*", default=[])
@@ -92,7 +86,6 @@ def main():
     parser.add_argument("--table")
     parser.add_argument("--details")
     arguments, arguments.options = parsed_with_options(parser)
-    os.environ["COSEG_RANKS"] = str(arguments.ranks)
     rows, unstable = (measure_samples(arguments), 0) if arguments.data else measure_families(arguments)
     if arguments.table:
         pathlib.Path(arguments.table).write_text("\n".join(rows) + "\n")

@@ -24,9 +24,10 @@ import tempfile
 
 import numpy
 
-from accuracy import chosen_sets, markdown, turn_meshes, write_whole
+from accuracy import chosen_sets, turn_meshes
 from consistency import Shape, agreement, segment
-from examples import add_set_arguments, score
+from examples import add_set_arguments
+from program import markdown, one_to_one, write_whole
 
 CASES = ("halves", "shuffled", "turned")
 
@@ -83,7 +84,7 @@ def accuracy_of(arguments, folder, truth, run, work):
             with open(os.path.join(labels, name + ".seg"), "w") as file:
                 file.write("\n".join(map(str, of_shape)) + "\n")
         meshes = [os.path.join(folder, name + ".off") for name in sorted(run)]
-        return score(arguments, {"meshes": meshes}, truth, labels)
+        return one_to_one(arguments, truth, labels, meshes)
 
 
 def measure(arguments, sample):
