@@ -63,6 +63,11 @@ LabelNames parse_names(std::string bytes, const std::string& path) {
     return names;
 }
 
+LabelNames names_if_there(const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored) ? read_found_names(path) : LabelNames();
+}
+
 }  // namespace
 
 LabelNames read_names(const std::string& path) { return parse_names(read_file(path), path); }
@@ -70,9 +75,11 @@ LabelNames read_names(const std::string& path) { return parse_names(read_file(pa
 LabelNames read_found_names(const std::string& path) { return parse_names(read_regular_file(path), path); }
 
 LabelNames names_in_folder(const std::string& folder) {
-    const std::string path = folder + "/" + result_files::names;
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored) ? read_found_names(path) : LabelNames();
+    return names_if_there(folder + "/" + result_files::names);
+}
+
+LabelNames names_beside_truth(const std::string& folder) {
+    return folder.empty() ? LabelNames() : names_if_there(folder + "/" + truth_names_file);
 }
 
 std::string names_text(const LabelNames& names) {

@@ -23,6 +23,13 @@ LabelNames read_found_names(const std::string& path);
 /// The names in FOLDER/names.txt; none where there is no such file. Throws as read_found_names.
 LabelNames names_in_folder(const std::string& folder);
 
+/// The file beside true labels that names them, as `coseg generate` writes it.
+inline constexpr const char* truth_names_file = "labels.txt";
+
+/// The names in FOLDER/labels.txt; none where `folder` is empty or there is no such file. Throws as
+/// read_found_names.
+LabelNames names_beside_truth(const std::string& folder);
+
 /// The text of such a file: the number and the name of each label, a line each.
 std::string names_text(const LabelNames& names);
 

@@ -117,7 +117,7 @@ void generate(const GenerateOptions& options, const Comm& world) {
         if (options.out.empty()) throw Error(ExitCode::usage, "name the folder to write into with --out");
         if (!world.is_root()) return;
         prepare_folders(options);
-        write_file(options.out + "/truth/labels.txt", names_text(numbered(family.labels)));
+        write_file(options.out + "/truth/" + truth_names_file, names_text(numbered(family.labels)));
     });
     agree(world, [&] {
         for (int index = world.rank(); index < options.count; index += world.size())

@@ -46,12 +46,7 @@ std::string comma_separated(const std::vector<std::string>& words) {
 LabelNames chosen_names(const Comm& world, const RenderOptions& options) {
     LabelNames names;
     agree(world, [&] {
-        const std::string beside = options.input.truth + "/labels.txt";
-        if (!options.names.empty()) {
-            names = read_names(options.names);
-        } else if (!options.input.truth.empty() && std::filesystem::exists(beside)) {
-            names = read_found_names(beside);
-        }
+        names = options.names.empty() ? names_beside_truth(options.input.truth) : read_names(options.names);
     });
     return names;
 }

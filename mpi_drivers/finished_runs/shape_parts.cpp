@@ -1,7 +1,6 @@
 #include "mpi_drivers/finished_runs/shape_parts.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -16,8 +15,6 @@
 namespace coseg {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The pieces of one shape of this rank.
 struct ShapePieces {
@@ -70,12 +67,10 @@ std::vector<std::string> names_of_parts(const Comm& comm, const FinishedRun& run
     LabelNames names;
     bool are_of_labels = false;
     agree(comm, [&] {
-        const std::string beside_truth = input.truth + "/labels.txt";
         names = file.empty() ? names_in_folder(run.folder) : read_names(file);
-        if (names.empty() && !input.truth.empty() && fs::exists(beside_truth)) {
-            names = read_found_names(beside_truth);
-            are_of_labels = true;
-        }
+        if (!names.empty()) return;
+        names = names_beside_truth(input.truth);
+        are_of_labels = !names.empty();
     });
     are_of_labels = any_rank(comm, are_of_labels);
     std::vector<int> label_of_part;

@@ -58,6 +58,17 @@ TEST(NameFile, TextOfOtherEncodings) {
                                                                        "cken"}}));
 }
 
+TEST(NameFile, NamesAreFoundInAFolderOfResultsAndBesideTrueLabels) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(names_in_folder(folder.path()), LabelNames());
+    EXPECT_EQ(names_beside_truth(folder.path()), LabelNames());
+    EXPECT_EQ(names_beside_truth(""), LabelNames());
+    folder.file("names.txt", "seat\n");
+    folder.file("labels.txt", "1 wing\n");
+    EXPECT_EQ(names_in_folder(folder.path()), (LabelNames{{0, "seat"}}));
+    EXPECT_EQ(names_beside_truth(folder.path()), (LabelNames{{1, "wing"}}));
+}
+
 TEST(NameFile, APipeIsReadWhereItIsNamedAndRefusedWhereItIsFound) {
     const TemporaryFolder folder;
     const std::string path = folder.path("names.txt");
