@@ -183,4 +183,19 @@ std::vector<int> agree_on_truth(const Comm& comm, const std::vector<LabelledMesh
             gains.scalars().data(), parts, labels));
 }
 
+std::vector<bool> wrong_faces(const LabelledMesh& shape, const std::vector<int>& label_of_part) {
+    std::vector<bool> is_wrong(shape.part.size(), false);
+    for (std::size_t f = 0; f < shape.truth.size(); ++f)
+        is_wrong[f] = shape.truth[f] < 0 || label_of_part[at(shape.part[f])] != shape.truth[f];
+    return is_wrong;
+}
+
+std::optional<double> right_share(const LabelledMesh& shape, const std::vector<bool>& is_wrong) {
+    const std::vector<double> areas = polygon_areas(shape.mesh);
+    double right_area = 0.0;
+    for (std::size_t f = 0; f < areas.size(); ++f) right_area += is_wrong[f] ? 0.0 : areas[f];
+    const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+    return total > 0.0 ? std::optional<double>(right_area / total) : std::nullopt;
+}
+
 }  // namespace coseg

@@ -52,4 +52,11 @@ PictureMesh standing_picture(const LabelledMesh& shape, const std::vector<Color>
 /// left over. Collective; throws AgreedError(input) if no shape has truth.
 std::vector<int> agree_on_truth(const Comm& comm, const std::vector<LabelledMesh>& shapes, int parts);
 
+/// For each face whether its part does not stand for its true label; so for a face without one. None is wrong
+/// where the shape has no truth. `label_of_part` is that of agree_on_truth.
+std::vector<bool> wrong_faces(const LabelledMesh& shape, const std::vector<int>& label_of_part);
+
+/// The share of the shape's area whose faces are not wrong; nothing where it has no area.
+std::optional<double> right_share(const LabelledMesh& shape, const std::vector<bool>& is_wrong);
+
 }  // namespace coseg

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
 #include <set>
 #include <tuple>
 
 #include "src/base/index.hpp"
 #include "src/base/text.hpp"
-#include "src/mesh/polygon_area.hpp"
 #include "src/parallel/record_exchange.hpp"
 #include "src/pictures/color_scale.hpp"
 #include "src/pictures/part_colors.hpp"
@@ -101,16 +100,12 @@ void name_parts(std::vector<LegendEntry>& legend, const std::vector<double>& par
 DrawnShape drawn_errors(const LabelledMesh& shape, const std::vector<int>& label_of_part) {
     std::vector<Color> colors(static_cast<std::size_t>(shape.mesh.face_count()), without_truth);
     if (shape.truth.empty()) return drawn(shape, colors);
-    const std::vector<double> areas = polygon_areas(shape.mesh);
-    double right_area = 0.0;
+    const std::vector<bool> is_wrong = wrong_faces(shape, label_of_part);
     for (std::size_t f = 0; f < colors.size(); ++f) {
-        if (shape.truth[f] < 0) continue;
-        const bool is_right = label_of_part[at(shape.part[f])] == shape.truth[f];
-        colors[f] = is_right ? right : wrong;
-        if (is_right) right_area += areas[f];
+        if (shape.truth[f] >= 0) colors[f] = is_wrong[f] ? wrong : right;
     }
-    const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
-    return drawn(shape, colors, total > 0.0 ? percent(right_area / total, 1) : "");
+    const std::optional<double> share = right_share(shape, is_wrong);
+    return drawn(shape, colors, share ? percent(*share, 1) : "");
 }
 
 /// The value below which `share` of the values lie.

@@ -2,36 +2,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
 
 #include "io/data_files/result_files.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/folders/finished_run.hpp"
 #include "io/reports/report_page.hpp"
 #include "src/base/index.hpp"
-#include "src/mesh/polygon_area.hpp"
 #include "src/mesh/vertex_clustering.hpp"
 #include "src/parallel/record_exchange.hpp"
 
 namespace coseg {
 
 namespace {
-
-/// The share of the area of faces whose part stands for their label.
-double accuracy_of(const LabelledMesh& shape, const std::vector<bool>& is_wrong) {
-    const std::vector<double> areas = polygon_areas(shape.mesh);
-    double right = 0.0;
-    for (std::size_t f = 0; f < areas.size(); ++f) right += is_wrong[f] ? 0.0 : areas[f];
-    const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
-    return total > 0.0 ? right / total : 0.0;
-}
-
-std::vector<bool> wrong_faces(const LabelledMesh& shape, const std::vector<int>& label_of_part) {
-    std::vector<bool> is_wrong(shape.part.size(), false);
-    for (std::size_t f = 0; f < shape.truth.size(); ++f)
-        is_wrong[f] = shape.truth[f] < 0 || label_of_part[at(shape.part[f])] != shape.truth[f];
-    return is_wrong;
-}
 
 std::string packed_shape(const LabelledMesh& shape, const std::vector<bool>& is_wrong, int most_faces) {
     const PictureMesh picture = standing_picture(shape, std::vector<Color>(shape.part.size()));
@@ -90,7 +72,7 @@ void write_html_report(const Comm& comm, const FinishedInput& input, const std::
             const std::vector<bool> is_wrong = wrong_faces(shape, label_of_part);
             PageShape page{.number = shape.number, .packed = "", .accuracy = {}};
             if (shape.number % step == 0) page.packed = packed_shape(shape, is_wrong, most_faces);
-            if (!shape.truth.empty()) page.accuracy = accuracy_of(shape, is_wrong);
+            if (!shape.truth.empty()) page.accuracy = right_share(shape, is_wrong).value_or(0.0);
             local.push_back(std::move(page));
         }
         drawn = undrawn(shapes);
