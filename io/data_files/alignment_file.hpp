@@ -1,23 +1,17 @@
 #pragma once
 // alignment.json: how the shapes of a run are turned so that all stand alike.
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
+
+#include "src/records/shape_alignment.hpp"
 
 namespace coseg {
 
 /// x -> scale * rotation * x + translation takes the coordinates of the shape's file to the common frame, in
 /// which shapes have their centre near the origin and the root mean square of a coordinate is about 1.
-struct AlignedShape {
+struct AlignedShape : ShapePose {
     std::string name;
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-    double scale = 1.0;
-    Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-    double agreement = 0.0;  ///< the last four as ShapePose has them
-    double residual = 0.0;
-    bool reflected = false;
-    bool found = false;
 };
 
 struct AlignmentFile {

@@ -89,15 +89,9 @@ FilePlace place_in_file(const MeshDescription& mesh) {
 }
 
 AlignedShape shape_in_file_units(const std::string& name, const ShapePose& pose, const FilePlace& place) {
-    AlignedShape shape;
-    shape.name = name;
-    shape.rotation = pose.rotation;
+    AlignedShape shape{pose, name};
     shape.scale = pose.scale / place.unit;
     shape.translation = pose.translation - shape.scale * (pose.rotation * place.centre);
-    shape.agreement = pose.agreement;
-    shape.residual = pose.residual;
-    shape.reflected = pose.reflected;
-    shape.found = pose.found;
     return shape;
 }
 
