@@ -191,6 +191,16 @@ void refuse_folders_for_files(const fs::path& folder, const auto& is_file_of_our
     }
 }
 
+/// Throws Error(output) where it is there as a file.
+bool is_there_as_folder(const fs::path& folder) {
+    std::error_code ignored;
+    if (!fs::exists(folder, ignored)) return false;
+    if (fs::is_directory(folder, ignored)) return true;
+    throw Error(
+        ExitCode::output,
+        folder.string() + ": is a file where a folder of results is to be put; move it or name another");
+}
+
 void refuse_unwritable(const fs::path& folder) {
     const std::string probe = (folder / (own_mark() + std::to_string(::getpid()))).string();
     write_file(probe, "");
@@ -293,16 +303,13 @@ void OutputDirectory::refuse_what_is_in_the_way() const {
                              [](const fs::path& path) { return is_result_file(path.filename().string()); });
     for (const MeshResult& result : replaced_results()) {
         const fs::path folder = fs::path(path_) / result.folder;
-        if (!fs::exists(folder, ignored)) continue;
-        if (!fs::is_directory(folder, ignored)) {
-            throw Error(ExitCode::output, folder.string() +
-                                              ": is a file where a folder of results is to be put; move it "
-                                              "or name another");
-        }
+        if (!is_there_as_folder(folder)) continue;
         refuse_folders_for_files(folder,
                                  [&](const fs::path& path) { return path.extension() == result.suffix; });
         refuse_unwritable(folder);
     }
+    const fs::path levels = fs::path(path_) / result_files::levels;
+    if (is_there_as_folder(levels)) refuse_unwritable(levels);
 }
 
 void OutputDirectory::try_names(const std::vector<std::string>& names, std::uintmax_t input_bytes) const {

@@ -114,9 +114,11 @@ TEST(OutputDirectory, WhatIsInTheWayIsRefusedAtOnce) {
         fs::remove_all(folder.path("out"));
     }
     fs::create_directory(folder.path("out"));
-    folder.file("out/patches", "");
-    EXPECT_NE(refused().find("patches: is a file where a folder"), std::string::npos);
-    fs::remove(folder.path("out/patches"));
+    for (const std::string in_the_way : {"patches", "sheets", "levels"}) {
+        folder.file("out/" + in_the_way, "");
+        EXPECT_NE(refused().find(in_the_way + ": is a file where a folder"), std::string::npos);
+        fs::remove(folder.path("out/" + in_the_way));
+    }
     fs::create_directories(folder.path("out/labels/mine"));
     EXPECT_EQ(refused(), "");
     EXPECT_EQ(tree(folder.path()), (std::set<std::string>{"out", "out/labels", "out/labels/mine"}));
