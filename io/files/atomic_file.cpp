@@ -40,6 +40,14 @@ std::string temporary_path(const std::string& path) {
     return path.substr(0, name_begin + longest - 16) + std::to_string(hash_text(path)) + mark;
 }
 
+/// Of a path that no file can have, the cause; else 0. Renaming would fail, but only when all is written.
+int cause_against(const std::string& path) {
+    std::error_code cause;
+    const fs::file_status status = fs::status(path, cause);
+    if (fs::is_directory(status)) return EISDIR;
+    return cause == std::errc::filename_too_long ? ENAMETOOLONG : 0;
+}
+
 bool is_cause_of_writing(int cause) {
     return cause == ENOSPC || cause == EDQUOT || cause == EFBIG || cause == EIO;
 }
@@ -48,7 +56,8 @@ bool is_cause_of_writing(int cause) {
 
 AtomicFile::AtomicFile(const std::string& path)
     : path_(path), target_(target_of(path)), temporary_(is_channel(path) ? "" : temporary_path(target_)) {
-    errno = 0;
+    errno = cause_against(path_);
+    if (errno != 0) fail("cannot be written");
     if (temporary_.empty())
         stream_.open(path_, std::ios::binary);
     else
@@ -85,6 +94,10 @@ void AtomicFile::fail(const std::string& what) {
     remove_temporary();
     throw Error(ExitCode::output,
                 path_ + ": " + what + " (" + cause + "); check the folder and the free space");
+}
+
+void try_file(const std::string& path) {
+    if (!path.empty() && !is_channel(path)) const AtomicFile tried(path);
 }
 
 void write_file(const std::string& path, std::string_view content) {

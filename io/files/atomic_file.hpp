@@ -12,7 +12,8 @@ namespace coseg {
 /// Where the path is a link, what it leads to is replaced. A pipe or a device is written to as it is.
 class AtomicFile {
   public:
-    /// Throws Error(output) with path and cause if the temporary cannot be created.
+    /// Throws Error(output) with path and cause if the temporary cannot be created, or if no file can have
+    /// this path, as where a folder has it or its name is too long.
     explicit AtomicFile(const std::string& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -33,6 +34,10 @@ class AtomicFile {
     std::ofstream stream_;
     bool is_committed_ = false;
 };
+
+/// Throws as AtomicFile does where a file at this path could not be written, so that a command says so before
+/// its work and not after it. Nothing is left behind; a pipe or a device is not opened. "" is no file.
+void try_file(const std::string& path);
 
 /// Writes the whole content at once. Throws as AtomicFile does.
 void write_file(const std::string& path, std::string_view content);

@@ -21,6 +21,7 @@
 #include "io/folders/absolute_folder.hpp"
 #include "io/folders/state_lock.hpp"
 #include "src/base/error.hpp"
+#include "src/base/seeded_random.hpp"
 
 namespace coseg {
 
@@ -76,10 +77,18 @@ std::string own_mark() {
 }
 
 /// The partial folder lies inside a folder that exists: this may be a mount point, or its parent may be
-/// closed to us.
+/// closed to us. Beside a folder whose name is so long that none longer is allowed, a hash stands for the end
+/// of the name.
 std::string staging_prefix(const std::string& path) {
+    constexpr std::size_t longest_name = 255;
+    constexpr std::size_t hash_and_process = 20 + 10;  // decimal digits of 64 bits, and of a process
+    const std::string mark = own_mark();
     std::error_code ignored;
-    return (fs::is_directory(path, ignored) ? path + "/" : path) + own_mark();
+    if (fs::is_directory(path, ignored)) return path + "/" + mark;
+    const std::size_t name_begin = path.rfind('/') + 1;
+    if (path.size() - name_begin + mark.size() + hash_and_process <= longest_name) return path + mark;
+    const std::size_t kept = longest_name - hash_and_process - mark.size();
+    return path.substr(0, name_begin + kept) + std::to_string(hash_text(path)) + mark;
 }
 
 /// The process has ended, but its parent has not collected its status, which in a container may never happen.

@@ -114,7 +114,7 @@ void refuse_json_over_mesh(const std::string& json, std::vector<std::string> inp
                                          "' has the name of a mesh, which would be overwritten; name a file "
                                          "for the findings, such as check.json");
     for (const MeshEntry& entry : entries) inputs.push_back(entry.path);
-    refuse_output_over_input("--json", json, inputs);
+    check_output_files({{"--json", json}}, inputs);
 }
 
 void check(const Comm& world, const CheckOptions& options) {

@@ -47,8 +47,8 @@ void cluster_file(const Invocation& invocation, const ClusterSettings& settings)
     data.name = settings.path;
     agree(comm, [&] {
         if (!comm.is_root()) return;
-        refuse_output_over_input("--out", settings.out, {settings.path});
-        refuse_output_over_input("--coefficients", settings.coefficients, {settings.path});
+        check_output_files({{"--out", settings.out}, {"--coefficients", settings.coefficients}},
+                           {settings.path});
         data.file = read_feature_file(settings.path);
     });
     share(comm, data);

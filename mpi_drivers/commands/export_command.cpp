@@ -19,6 +19,7 @@
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
 #include "mpi_drivers/finished_runs/shown_descriptors.hpp"
 #include "mpi_drivers/options/command.hpp"
+#include "mpi_drivers/options/option_checks.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"
 
@@ -185,11 +186,33 @@ void write_instances(const Comm& world, const std::vector<LabelledMesh>& shapes,
     });
 }
 
+/// Meshes that lie where the export writes would be replaced by what it makes of them.
+void refuse_output_over_meshes(const std::vector<LabelledMesh>& shapes, const ExportOptions& options,
+                               const std::string& out) {
+    if (options.split) return;  // into folders that are named like the meshes
+    for (const std::string& name : options.formats) {
+        if (name == borders_kind) continue;
+        for (const LabelledMesh& shape : shapes) {
+            std::error_code ignored;
+            const std::string file =
+                out + "/" + name + "/" + shape.name + std::string(writable_format(name).suffix);
+            if (fs::equivalent(file, shape.path, ignored))
+                throw Error(
+                    ExitCode::output,
+                    shape.path + ": is a mesh of the run, which would be overwritten; name another --out");
+        }
+    }
+}
+
 /// Collective over the invocation's ranks.
 void export_run(const ExportOptions& options, const Comm& world) {
     const FinishedRun run = read_run(world, options.input.folder);
-    const std::vector<LabelledMesh> shapes = read_shapes(world, run, options.input);
     const std::string out = options.out.empty() ? options.input.folder : options.out;
+    agree(world, [&] {
+        if (world.is_root()) check_output_folder(out);
+    });
+    const std::vector<LabelledMesh> shapes = read_shapes(world, run, options.input);
+    agree(world, [&] { refuse_output_over_meshes(shapes, options, out); });
     PartFacts facts{names_of_parts(world, run, shapes, options.input, options.names), {}};
     if (options.instances) {
         facts.instances = instances_of(world, shapes);

@@ -15,6 +15,7 @@
 #include "mpi_drivers/finished_runs/sheet_stage.hpp"
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
+#include "mpi_drivers/options/option_checks.hpp"
 #include "src/base/error.hpp"
 
 namespace coseg {
@@ -57,10 +58,13 @@ void render(const RenderOptions& options, const Comm& world) {
         throw AgreedError(ExitCode::usage,
                           "truth and errors need the folder of the true labels: --truth DIR");
     const FinishedRun run = read_run(world, options.input.folder);
+    const std::string out = options.out.empty() ? options.input.folder : options.out;
+    agree(world, [&] {
+        if (world.is_root()) check_output_folder(out);
+    });
     const std::vector<LabelledMesh> shapes = read_shapes(world, run, options.input);
     PartKey key{{}, chosen_names(world, options)};
     if (!options.input.truth.empty()) key.label_of_part = agree_on_truth(world, shapes, run.parts);
-    const std::string out = options.out.empty() ? options.input.folder : options.out;
     agree(world, [&] {
         std::error_code cause;
         if (world.is_root()) std::filesystem::create_directories(out, cause);

@@ -70,7 +70,7 @@ void solve_file(const Comm& comm, const SolveSettings& settings) {
             "over all pairs");
     }
     agree(comm, [&] {
-        refuse_output_over_input("--coefficients", settings.coefficients, {settings.path});
+        if (comm.is_root()) check_output_files({{"--coefficients", settings.coefficients}}, {settings.path});
         reserve_blas_memory();
     });
     FeatureMatrices features;

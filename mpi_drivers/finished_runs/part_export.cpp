@@ -1,5 +1,6 @@
 #include "mpi_drivers/finished_runs/part_export.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <string_view>
@@ -27,9 +28,13 @@ const std::vector<int>* pieces_in(const FaceArrays& arrays) {
     return nullptr;
 }
 
-/// The name with characters that file systems refuse replaced.
+/// The name with characters that file systems refuse replaced. Of a long one the beginning, as the number of
+/// the part before it tells it from others; no character is torn.
 std::string as_file_name(const std::string& name) {
-    std::string safe = name;
+    constexpr std::size_t longest = 100;  // bytes, of the 255 that a name may have
+    std::size_t end = std::min(name.size(), longest);
+    while (end > 0 && end < name.size() && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+    std::string safe = name.substr(0, end);
     for (char& c : safe) {
         const bool is_control = static_cast<unsigned char>(c) < ' ';
         if (is_control || std::string_view("/\\:*?\"<>| ").find(c) != std::string_view::npos) c = '_';

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <string>
 #include <vector>
+#include <string_view>
+#include <utility>
 
 namespace coseg {
 
@@ -39,3 +41,13 @@ void refuse_output_over_input(const std::string& option, const std::string& outp
                               const std::vector<std::string>& inputs);
 
 }  // namespace coseg
+/// Of the files that a command is to write: options with their paths, "" where an option is not given. Throws
+/// Error(usage) where one is an input, as above, or two are the same file, under whatever names, and
+/// Error(output) where one cannot be written. To be called before the work.
+void check_output_files(const std::vector<std::pair<std::string, std::string>>& outputs,
+                        const std::vector<std::string>& inputs);
+
+/// Throws Error(output) where a folder of this path can neither be there nor be made, as far as names and
+/// permissions tell. Makes nothing, so that a command may ask before its work.
+void check_output_folder(const std::string& folder);
+

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "io/data_files/result_files.hpp"
+#include "io/folders/absolute_folder.hpp"
 #include "mpi_drivers/describe/mesh_stage.hpp"
 #include "src/base/error.hpp"
 #include "src/parallel/record_exchange.hpp"
@@ -13,13 +14,17 @@ namespace coseg {
 
 namespace {
 
-/// A folder that may hold nothing cannot hold the state either.
+/// One folder cannot be both, and one that may hold nothing cannot hold the state either.
 void refuse_state_in_results(const OutputOptions& output, const ProcessOptions& process) {
     namespace fs = std::filesystem;
-    if (output.folder.empty() || output.force) return;
+    if (output.folder.empty()) return;
     std::error_code ignored;
-    const fs::path results = fs::weakly_canonical(fs::absolute(output.folder), ignored);
-    const fs::path state = fs::weakly_canonical(fs::absolute(process.state), ignored);
+    const fs::path results = absolute_folder(output.folder, ignored);
+    const fs::path state = absolute_folder(process.state, ignored);
+    if (results == state)
+        throw Error(ExitCode::usage, "--out and --state name the same folder '" + output.folder +
+                                         "'; name a folder elsewhere for one of them");
+    if (output.force) return;
     if (std::mismatch(results.begin(), results.end(), state.begin(), state.end()).first == results.end())
         throw Error(ExitCode::usage, "--state " + process.state + " lies in the output folder " +
                                          output.folder + ", which must be empty; name a folder elsewhere");

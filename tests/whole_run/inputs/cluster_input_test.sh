@@ -141,4 +141,12 @@ refuses "clusters over the input" 2 "is an input, which would be overwritten" \
 refuses "coefficients over the input" 2 "is an input, which would be overwritten" \
     "$COSEG" cluster --parts 2 --out "$work/k.txt" --coefficients "$work/kept.h5" "$work/kept.h5"
 cmp "$work/good.h5" "$work/kept.h5" || fail "the input is overwritten"
+refuses "one file for two results" 2 "--out and --coefficients name the same file" \
+    "$COSEG" cluster "$work/good.h5" --parts 4 --out "$work/x" --coefficients "$work/../${work##*/}/x"
+# Before the work: the gap could not be reached, which would be said of a solve.
+unreachable=(--gap 1e-14 --max-iterations 1)
+refuses "a folder that is not there" 4 "nowhere/x: cannot be created" "$COSEG" cluster "$work/good.h5" --parts 4 "${unreachable[@]}" --out "$work/nowhere/x"
+refuses "coefficients in place of a folder" 4 "cannot be written (Is a directory)" \
+    "$COSEG" cluster "$work/good.h5" --parts 4 "${unreachable[@]}" --out "$work/x" --coefficients "$work"
+[[ ! -e $work/x ]] || fail "a refused command leaves a file"
 echo "ok: cluster input"

@@ -27,6 +27,7 @@ done
 refuses "too many ranks" 2 "--ranks" "$COSEG" run --parts 2 --ranks 100001 --out "$work/x" "$work"
 refuses "a gap that no sum can reach" 2 "'0' is no number from 1e-12 to 1" "$COSEG" run --parts 2 --gap 0 --out "$work/x" "$work"
 
+refuses "results longer than a name" 4 "File name too long" "$COSEG" run --parts 2 --out "$work/$(printf 'n%.0s' {1..256})" "$work"
 mkdir "$work/set"
 peanut "$work/set/a.off" 0.5
 peanut "$work/set/b.off" 0.6
@@ -84,6 +85,8 @@ refuses "an offset beside a balance" 2 "--cut-offset" "$COSEG" run "${common[@]}
 printf '# two of them\nset/a.off\n\nset/c.off\n' >"$work/list.txt"
 "$COSEG" run "${common[@]}" --parts 2 --out "$work/listed" "@$work/list.txt"
 [[ $(ls "$work/listed/labels") == $'a.seg\nc.seg' ]] || fail "a list of meshes"
+refuses "results and state in one folder" 2 "--out and --state name the same folder" \
+    "$COSEG" run "${common[@]}" --parts 2 --force --state "$work/both/" --out "$work/both" "$work/set"
 
 "$COSEG" run "${common[@]}" --parts 2 --out "$work/petsc" "$work/set" -- -eps_ncv 40
 [[ -f $work/petsc/report.json ]] || fail "options of PETSc"

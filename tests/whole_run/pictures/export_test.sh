@@ -21,6 +21,18 @@ touch "$work/called/obj/pliers_0000/party.obj"
 "$COSEG" export "$work/result" --to obj --split --out "$work/called" >/dev/null
 [[ $(ls "$work/called/obj/pliers_0000") == $'part_0.obj\npart_1.obj\npart_2.obj\nparts.mtl\nparty.obj' ]] ||
     fail "parts of an earlier export: $(ls "$work/called/obj/pliers_0000")"
+# Names that are longer than a file's may be are cut, between characters.
+printf '%s\n%s\n' "$(printf 'ä%.0s' {1..150})" "$(printf 'x%.0s' {1..300})" >"$work/long_names"
+for format in obj glb; do
+    "$COSEG" export "$work/result" --to $format --split --names "$work/long_names" --out "$work/long" >/dev/null || fail "long names in $format"
+done
+[[ $(find "$work/long/obj/pliers_0000" -name 'part_[01]_*.obj' | wc -l) -eq 2 ]] || fail "files of parts with long names"
+find "$work/long" | iconv -f UTF-8 -t UTF-8 >/dev/null || fail "a torn character in the name of a file"
+mkdir -p "$work/in/off"
+cp "$work"/set/meshes/pliers_000[0-3].off "$work/in/off"
+refuses "an export over the meshes" 4 "is a mesh of the run, which would be overwritten" \
+    "$COSEG" export "$work/result" --meshes "$work/in/off" --to off --out "$work/in"
+refuses "an export below a file" 4 "is a file); name another folder" "$COSEG" export "$work/result" --to off --out "$work/names/x"
 "$COSEG" export "$work/result" --to ply --out "$work/again" >"$work/out"
 cmp "$work/result/ply/pliers_0001.ply" "$work/again/ply/pliers_0001.ply" || fail "the exported PLY is not the run's"
 cp -r "$work/result" "$work/edited"

@@ -50,5 +50,23 @@ TEST(AtomicFile, AFullDeviceIsAFailureAndStays) {
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
+TEST(AtomicFile, WhatNoFileCanBeIsRefusedBeforeAnythingIsWritten) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path("taken"));
+    const std::string longest = folder.path(std::string(255, 'n'));
+    for (const std::string& path : {folder.path("taken"), longest + "n", folder.path("nowhere/file")}) {
+        EXPECT_THROW(AtomicFile{path}, Error) << path;
+        EXPECT_THROW(try_file(path), Error) << path;
+    }
+    try_file("");
+    try_file("/dev/full");
+    try_file(longest);
+    EXPECT_FALSE(fs::exists(longest));
+    fs::remove(folder.path("taken"));
+    EXPECT_TRUE(fs::is_empty(folder.path("")));
+    write_file(longest, "all of it");
+    EXPECT_EQ(read_file(longest), "all of it");
+}
+
 }  // namespace
 }  // namespace coseg

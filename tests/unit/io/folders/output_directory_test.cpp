@@ -41,6 +41,22 @@ TEST(OutputDirectory, AppearsWholeAtCommit) {
               (std::set<std::string>{"out", "out/labels", "out/labels/a.seg", "out/patches", "out/ply"}));
 }
 
+TEST(OutputDirectory, MayHaveTheLongestName) {
+    const TemporaryFolder folder;
+    const std::string name(255, 'n');
+    {
+        OutputDirectory output(folder.path(name), false);
+        write_labels(output.staging() + "/labels/a.seg", {1});
+        output.commit();
+    }
+    EXPECT_EQ(tree(folder.path()), (std::set<std::string>{name, name + "/labels", name + "/labels/a.seg",
+                                                          name + "/patches", name + "/ply"}));
+    EXPECT_NE(error_of([&] {
+                  const OutputDirectory longer(folder.path("n" + name), false);
+              }).find("File name too long"),
+              std::string::npos);
+}
+
 TEST(OutputDirectory, WithoutCommitNothingStays) {
     const TemporaryFolder folder;
     {
