@@ -33,7 +33,15 @@ SubspaceProblem make_problem(ClusterData& data, const ClusterOptions& settings) 
                               ": --scope meshes needs the dataset 'mesh_of' with at least two "
                               "groups; items of one group are not linked to each other");
     }
-    if (!mesh_scope || !keeps_scope(settings.variant)) return problem;
+    if (!mesh_scope || !keeps_scope(settings.variant)) {
+        if (settings.links == 0) return problem;
+        throw AgreedError(
+            ExitCode::usage,
+            data.name +
+                ": links would have no effect; they need groups of items ('mesh_of'), the scope "
+                "auto or meshes, and a variant that keeps it; row scope, ssc and ssqp are over "
+                "all pairs");
+    }
     problem.scope = PenaltyScope::meshes;
     problem.mesh_of = data.file.mesh_of;
     const int meshes = 1 + *std::ranges::max_element(problem.mesh_of);

@@ -8,6 +8,7 @@
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/launch_option.hpp"
+#include "mpi_drivers/options/option_checks.hpp"
 
 namespace coseg {
 

@@ -71,6 +71,7 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
     app.add_option("--links", settings.cluster.links,
                    "Mesh scope: other groups in which an item may have matches, a seeded sample; 0 is all")
         ->check(CLI::Range(0, 1 << 30))
+        ->transform(decimal_digits)
         ->check(CLI::Validator(
             [](std::string& text) {
                 return text == "1" ? std::string("a group needs at least 2") : std::string();
@@ -79,6 +80,7 @@ void add_problem_options(CLI::App& app, ClusterSettings& settings) {
         ->capture_default_str();
     app.add_option("--seed", settings.cluster.seed, "Of the sample of --links")
         ->check(unsigned_number)
+        ->transform(decimal_digits)
         ->capture_default_str();
     for (const auto& [name, value, help] :
          {std::tuple{"--alpha", &settings.cluster.alpha, "Weight of the l2,1 penalty"},
@@ -100,6 +102,7 @@ void add_limits(CLI::App& app, ClusterSettings& settings) {
         ->capture_default_str();
     app.add_option("--max-iterations", settings.cluster.solve.max_iterations, "Stop after so many iterations")
         ->check(CLI::Range(1, most_solve_iterations))
+        ->transform(decimal_digits)
         ->capture_default_str();
     app.add_option("--max-seconds", settings.cluster.solve.max_seconds, "Stop after so many seconds")
         ->check(finite_number)
@@ -119,7 +122,8 @@ Command add_cluster_command(CLI::App& parent) {
         ->required();
     app->add_option("--parts", settings->cluster.parts, "Number of clusters K")
         ->required()
-        ->check(CLI::Range(1, most_parts));
+        ->check(CLI::Range(1, most_parts))
+        ->transform(decimal_digits);
     app->add_option("--out", settings->out, "Text file for the clusters: one number a line, 0 .. K-1")
         ->required()
         ->type_name("FILE");

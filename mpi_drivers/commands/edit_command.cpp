@@ -21,6 +21,7 @@
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/launch_option.hpp"
 #include "mpi_drivers/options/named_options.hpp"
+#include "mpi_drivers/options/option_checks.hpp"
 #include "mpi_drivers/process/checked_petsc.hpp"
 #include "src/base/error.hpp"
 #include "src/base/index.hpp"

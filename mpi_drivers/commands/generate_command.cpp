@@ -138,13 +138,16 @@ Command add_generate_command(CLI::App& parent) {
     app->add_option("FAMILY", options->family, "The family; `list` prints them all");
     app->add_option("--count", options->count, "Number of shapes")
         ->capture_default_str()
-        ->check(CLI::Range(1, most_generated_shapes));
+        ->check(CLI::Range(1, most_generated_shapes))
+        ->transform(decimal_digits);
     app->add_option("--seed", options->seed, "The same seed gives the same shapes")
         ->check(unsigned_number)
+        ->transform(decimal_digits)
         ->capture_default_str();
     app->add_option("--faces", options->faces, "Faces per shape, met within 15 %")
         ->capture_default_str()
-        ->check(CLI::Range(least_generated_faces, most_generated_faces));
+        ->check(CLI::Range(least_generated_faces, most_generated_faces))
+        ->transform(decimal_digits);
     app->add_option("--out", options->out,
                     "Folder to write into: meshes/NAME.off, truth/NAME.seg, truth/labels.txt");
     app->add_flag("--force", options->force,

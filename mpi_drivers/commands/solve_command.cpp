@@ -110,6 +110,7 @@ Command add_solve_command(CLI::App& parent) {
     app->add_option("--patches-per-mesh", settings->patches_per_mesh,
                     "Mesh scope: columns that make up one mesh, in order")
         ->check(CLI::Range(1, 1 << 30))
+        ->transform(decimal_digits)
         ->capture_default_str();
     app->add_option("--links", settings->links,
                     "Mesh scope: other meshes in which a column may have matches, a seeded sample; 0 is all")
@@ -119,13 +120,16 @@ Command add_solve_command(CLI::App& parent) {
             },
             ""))
         ->check(CLI::Range(0, 1 << 30))
+        ->transform(decimal_digits)
         ->capture_default_str();
     app->add_option("--seed", settings->seed, "Of the sample of --links")
         ->check(unsigned_number)
+        ->transform(decimal_digits)
         ->capture_default_str();
     add_enum_option(*app, "--variant", settings->variant, "Form of the problem; see docs/method.md");
     app->add_option("--feature", settings->feature, "Variant single-feature: which, counted from 1")
         ->check(CLI::Range(1, 1 << 30))
+        ->transform(decimal_digits)
         ->capture_default_str();
     add_enum_option(*app, "--solver", settings->options.solver,
                     "How W is stored: all pairs (dense) or a working set");
@@ -135,6 +139,7 @@ Command add_solve_command(CLI::App& parent) {
         ->capture_default_str();
     app->add_option("--max-iterations", settings->options.max_iterations, "Stop after so many iterations")
         ->check(CLI::Range(1, most_solve_iterations))
+        ->transform(decimal_digits)
         ->capture_default_str();
     app->add_option("--max-seconds", settings->options.max_seconds, "Stop after so many seconds")
         ->check(finite_number)

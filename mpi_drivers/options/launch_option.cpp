@@ -1,5 +1,7 @@
 #include "mpi_drivers/options/launch_option.hpp"
 
+#include "mpi_drivers/options/option_checks.hpp"
+
 namespace coseg {
 
 namespace {
@@ -12,7 +14,8 @@ CLI::Option* add_ranks_option(CLI::App& command) {
     return command
         .add_option(option_name, "Ranks of a command that is started without mpirun; 0: one for each core")
         ->type_name("INT")
-        ->check(CLI::Range(0, most_ranks_of_a_launch));
+        ->check(CLI::Range(0, most_ranks_of_a_launch))
+        ->transform(decimal_digits);
 }
 
 std::optional<LaunchRequest> launch_request(const CLI::App& command) {

@@ -10,6 +10,7 @@
 #include "mpi_drivers/options/named_options.hpp"
 #include "mpi_drivers/options/option_checks.hpp"
 #include "mpi_drivers/options/weld_option.hpp"
+#include "src/base/text.hpp"
 #include "src/descriptors/descriptor_table.hpp"
 #include "src/pictures/shape_view.hpp"
 #include "src/records/part_limits.hpp"
@@ -59,7 +60,8 @@ const std::string auto_word = "auto";
 /// A number from 1 to `most`, or the word auto.
 CLI::Validator number_or_auto(int most) {
     const auto check = [most](std::string& text) {
-        const bool is_fine = text == auto_word || CLI::Range(1, most)(text).empty();
+        const int number = whole_number(text).value_or(0);
+        const bool is_fine = text == auto_word || (number >= 1 && number <= most);
         return is_fine ? std::string()
                        : text + " is neither auto nor a number from 1 to " + std::to_string(most);
     };
@@ -110,6 +112,7 @@ CLI::Option* RunOptionTable::add(const Row& row, T& variable) {
             app_.add_option(name, variable, row.help)->capture_default_str()->group(row.group);
         if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::vector<double>>)
             option->check(finite_number);
+        if constexpr (kind_of<T>() == OptionKind::whole_number) option->transform(decimal_digits);
         return option;
     }
 }
@@ -157,6 +160,7 @@ void RunOptionTable::add_seed() {
             "Seed of all randomness; the same seed gives the same bytes")
         ->default_str(printed(options_.description.seed))
         ->check(unsigned_number)
+        ->transform(decimal_digits)
         ->group(in_out_group);
 }
 
@@ -210,10 +214,7 @@ CLI::Option* RunOptionTable::add_number_or_auto(const Row& row, int& variable, i
     remember(row, OptionKind::text,
              [&variable, found] { return variable == found ? auto_word : std::to_string(variable); });
     const auto take = [&variable, found](const std::string& text) {
-        if (text == auto_word)
-            variable = found;
-        else
-            CLI::detail::lexical_cast(text, variable);
+        variable = text == auto_word ? found : whole_number(text).value();  // checked before
     };
     return app_.add_option_function<std::string>("--" + row.key, take, row.help)
         ->check(number_or_auto(most))

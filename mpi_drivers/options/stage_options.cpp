@@ -5,16 +5,16 @@
 #include <charconv>
 #include <cstddef>
 
+#include "src/base/text.hpp"
+
 namespace coseg {
 
 std::optional<LinkChoice> parsed_links(std::string_view text) {
     if (text == "auto") return LinkChoice{};
     if (text == "all") return LinkChoice{LinkChoice::Rule::all, 0};
-    LinkChoice links{LinkChoice::Rule::number, 0};
-    const char* end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, links.meshes);
-    if (error != std::errc() || rest != end || links.meshes < 2) return std::nullopt;
-    return links;
+    const std::optional<int> meshes = whole_number(text);
+    if (!meshes || *meshes < 2) return std::nullopt;
+    return LinkChoice{LinkChoice::Rule::number, *meshes};
 }
 
 std::optional<WeldChoice> parsed_weld(std::string_view text) {

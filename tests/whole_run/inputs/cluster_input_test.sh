@@ -141,6 +141,7 @@ refuses "clusters over the input" 2 "is an input, which would be overwritten" \
 refuses "coefficients over the input" 2 "is an input, which would be overwritten" \
     "$COSEG" cluster --parts 2 --out "$work/k.txt" --coefficients "$work/kept.h5" "$work/kept.h5"
 cmp "$work/good.h5" "$work/kept.h5" || fail "the input is overwritten"
+refuses "links in row scope" 2 "links would have no effect" "$COSEG" cluster "$work/good.h5" --parts 4 --scope rows --links 5 --out "$work/x"
 refuses "one file for two results" 2 "--out and --coefficients name the same file" \
     "$COSEG" cluster "$work/good.h5" --parts 4 --out "$work/x" --coefficients "$work/../${work##*/}/x"
 # Before the work: the gap could not be reached, which would be said of a solve.

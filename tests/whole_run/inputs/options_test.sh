@@ -27,6 +27,9 @@ done
 refuses "too many ranks" 2 "--ranks" "$COSEG" run --parts 2 --ranks 100001 --out "$work/x" "$work"
 refuses "a gap that no sum can reach" 2 "'0' is no number from 1e-12 to 1" "$COSEG" run --parts 2 --gap 0 --out "$work/x" "$work"
 
+refuses "a number that is none" 2 "'+5' is no whole number" "$COSEG" generate table --count +5 --out "$work/x"
+refuses "a number in another base" 2 "'0x10' is no whole number" "$COSEG" run --parts 2 --patches 0x10 --out "$work/x" "$work"
+refuses "zeros before a number that is too small" 2 "a mesh needs at least 2" "$COSEG" solve --links 01 "$work/x"
 refuses "results longer than a name" 4 "File name too long" "$COSEG" run --parts 2 --out "$work/$(printf 'n%.0s' {1..256})" "$work"
 mkdir "$work/set"
 peanut "$work/set/a.off" 0.5
@@ -82,6 +85,8 @@ refuses "an unknown refinement" 2 "--refine" "$COSEG" run "${common[@]}" --parts
 diff -r "$work/rows/labels" "$work/old_word/labels" || fail "--scope paper is not --scope rows"
 refuses "an offset beside a balance" 2 "--cut-offset" "$COSEG" run "${common[@]}" --parts 2 --cut-offset 0.5 --out "$work/x" "$work/set"
 
+"$COSEG" run "${common[@]}" --parts 02 --seed 010 --no-choose --state "$work/state" --out "$work/decimal" "$work/set"
+grep -q '"seed": 10,' "$work/decimal/report.json" || fail "a zero before a number makes it octal"
 printf '# two of them\nset/a.off\n\nset/c.off\n' >"$work/list.txt"
 "$COSEG" run "${common[@]}" --parts 2 --out "$work/listed" "@$work/list.txt"
 [[ $(ls "$work/listed/labels") == $'a.seg\nc.seg' ]] || fail "a list of meshes"
