@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <memory>
 
 #include "src/base/spelling.hpp"
@@ -95,6 +96,15 @@ std::string spaced(const std::vector<std::string>& words) {
                           CLI::ExitCodes::ValidationError);
 }
 
+/// CLI11 would take it for options of one letter, and then miss the input.
+void refuse_path_like_option(const std::string& word) {
+    std::error_code ignored;
+    if (word == "-h" || !std::filesystem::exists(word, ignored)) return;
+    throw CLI::ParseError("'" + word + "' begins with a dash like an option; write './" + word +
+                              "' for the file or folder of this name",
+                          CLI::ExitCodes::ExtrasError);
+}
+
 }  // namespace
 
 void fold_help(CLI::App& app, const std::vector<std::string>& groups_always_shown) {
@@ -105,11 +115,13 @@ void fold_help(CLI::App& app, const std::vector<std::string>& groups_always_show
 void refuse_unknown_options(const CLI::App& command, const std::vector<std::string>& words) {
     const std::vector<std::string> known = long_names(command);
     for (const std::string& word : words) {
+        if (word.size() > 1 && word[0] == '-' && word[1] != '-') refuse_path_like_option(word);
         if (!word.starts_with("--") || word.size() == 2) continue;
         const std::string name = word.substr(0, word.find('='));
         // CLI11 would take the next word for the value.
         if (word == name + "=") refuse_empty_value(name);
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        refuse_path_like_option(word);
         const std::string meant = nearest_word(name, known);
         throw CLI::ParseError(name + " is not an option of coseg " + command.get_name() +
                                   (meant.empty() ? "" : "; did you mean " + meant + "?"),

@@ -14,8 +14,9 @@ namespace coseg {
 void fold_help(CLI::App& app, const std::vector<std::string>& groups_always_shown);
 
 /// Throws CLI::ParseError for the first word that looks like an option and is none of the command's, and
-/// names the option that was probably meant; and for `--name=` with nothing behind it. `words` are those of
-/// the command, beginning with its name.
+/// names the option that was probably meant; for `--name=` with nothing behind it; and for a file or folder
+/// whose name begins with a dash, which has to be written as ./-name. `words` are those of the command,
+/// beginning with its name.
 void refuse_unknown_options(const CLI::App& command, const std::vector<std::string>& words);
 
 /// Throws CLI::ParseError where an option of the command was given the empty text, as by a variable of the

@@ -30,6 +30,10 @@ refuses "a gap that no sum can reach" 2 "'0' is no number from 1e-12 to 1" "$COS
 refuses "a number that is none" 2 "'+5' is no whole number" "$COSEG" generate table --count +5 --out "$work/x"
 refuses "a number in another base" 2 "'0x10' is no whole number" "$COSEG" run --parts 2 --patches 0x10 --out "$work/x" "$work"
 refuses "zeros before a number that is too small" 2 "a mesh needs at least 2" "$COSEG" solve --links 01 "$work/x"
+mkdir "$work/dash"
+touch "$work/dash/-meshes"
+refuses "a path that looks like an option" 2 "'-meshes' begins with a dash like an option; write './-meshes'" \
+    env --chdir="$work/dash" "$COSEG" check -meshes
 refuses "results longer than a name" 4 "File name too long" "$COSEG" run --parts 2 --out "$work/$(printf 'n%.0s' {1..256})" "$work"
 mkdir "$work/set"
 peanut "$work/set/a.off" 0.5
