@@ -73,6 +73,7 @@ void return_freed_memory() {
 // What is thrown outside a subcommand (out of memory at start) may end the program at once.
 // NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
+    coseg::raise_stack_limit();
     CommandLine line(argc, argv);
     const bool is_alone = !coseg::is_launched();
     if (is_alone) {

@@ -1,13 +1,17 @@
 #include "mpi_drivers/process/mpi_start.hpp"
 
 #include <mpi.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <vector>
 
 #include "mpi_drivers/process/environment_setting.hpp"
 #include "mpi_drivers/process/self_launch.hpp"
+#include "src/base/error.hpp"
 
 namespace coseg {
 
@@ -28,6 +32,22 @@ constexpr std::array<const char*, 6> told_by_mpi{"OMPI_MCA_ess",
                                                  "ORTE_SCHIZO_DETECTION"};
 
 }  // namespace
+
+void raise_stack_limit() {
+    constexpr rlim_t usual = rlim_t{8} << 20U;
+    constexpr rlim_t least = rlim_t{512} << 10U;
+    rlimit limit{};
+    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= usual) return;  // RLIM_INFINITY is largest
+    const rlimit asked{usual, std::max(usual, limit.rlim_max)};
+    if (setrlimit(RLIMIT_STACK, &asked) == 0) return;  // a hard limit below this is raised for root alone
+    const rlimit most{limit.rlim_max, limit.rlim_max};
+    if (limit.rlim_max > limit.rlim_cur && setrlimit(RLIMIT_STACK, &most) == 0) limit = most;
+    if (limit.rlim_cur >= least) return;
+    std::fprintf(stderr,
+                 "coseg: the stack is limited to %llu KiB, and MPI needs 512; raise it with ulimit -s\n",
+                 static_cast<unsigned long long>(limit.rlim_cur >> 10U));
+    std::exit(static_cast<int>(ExitCode::usage));
+}
 
 void initialise_mpi(int thread_level) {
     std::vector<const char*> ours;

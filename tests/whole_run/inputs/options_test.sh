@@ -35,6 +35,7 @@ touch "$work/dash/-meshes"
 refuses "a path that looks like an option" 2 "'-meshes' begins with a dash like an option; write './-meshes'" \
     env --chdir="$work/dash" "$COSEG" check -meshes
 refuses "results longer than a name" 4 "File name too long" "$COSEG" run --parts 2 --out "$work/$(printf 'n%.0s' {1..256})" "$work"
+
 mkdir "$work/set"
 peanut "$work/set/a.off" 0.5
 peanut "$work/set/b.off" 0.6
@@ -84,18 +85,24 @@ common+=(--oversegmentations 3)
 diff -rq "$work/voted/labels" "$work/fuzzy/labels" >"$work/differences" && fail "--refine fuzzy moves nothing"
 refuses "an unknown refinement" 2 "--refine" "$COSEG" run "${common[@]}" --parts 2 --refine maybe --out "$work/x" "$work/set"
 
+refuses "results and state in one folder" 2 "--out and --state name the same folder" \
+    "$COSEG" run "${common[@]}" --parts 2 --force --state "$work/both/" --out "$work/both" "$work/set"
+"$COSEG" run "${common[@]}" --parts 02 --seed 010 --no-choose --state "$work/state" --out "$work/decimal" "$work/set"
+grep -q '"seed": 10,' "$work/decimal/report.json" || fail "a zero before a number makes it octal"
+(
+    ulimit -S -s 64
+    "$COSEG" run "${common[@]}" --parts 2 --seed 10 --no-choose --state "$work/state" --out "$work/small_stack" "$work/set"
+) || fail "a stack of 64 KiB"
+diff -r "$work/decimal/labels" "$work/small_stack/labels" || fail "a small stack gives other labels"
+
 "$COSEG" run "${common[@]}" --parts 2 --scope rows --out "$work/rows" "$work/set"
 "$COSEG" run "${common[@]}" --parts 2 --scope paper --out "$work/old_word" "$work/set"
 diff -r "$work/rows/labels" "$work/old_word/labels" || fail "--scope paper is not --scope rows"
 refuses "an offset beside a balance" 2 "--cut-offset" "$COSEG" run "${common[@]}" --parts 2 --cut-offset 0.5 --out "$work/x" "$work/set"
 
-"$COSEG" run "${common[@]}" --parts 02 --seed 010 --no-choose --state "$work/state" --out "$work/decimal" "$work/set"
-grep -q '"seed": 10,' "$work/decimal/report.json" || fail "a zero before a number makes it octal"
 printf '# two of them\nset/a.off\n\nset/c.off\n' >"$work/list.txt"
 "$COSEG" run "${common[@]}" --parts 2 --out "$work/listed" "@$work/list.txt"
 [[ $(ls "$work/listed/labels") == $'a.seg\nc.seg' ]] || fail "a list of meshes"
-refuses "results and state in one folder" 2 "--out and --state name the same folder" \
-    "$COSEG" run "${common[@]}" --parts 2 --force --state "$work/both/" --out "$work/both" "$work/set"
 
 "$COSEG" run "${common[@]}" --parts 2 --out "$work/petsc" "$work/set" -- -eps_ncv 40
 [[ -f $work/petsc/report.json ]] || fail "options of PETSc"
