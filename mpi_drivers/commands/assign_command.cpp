@@ -8,7 +8,6 @@
 #include "mpi_drivers/options/command.hpp"
 #include "mpi_drivers/options/enum_option.hpp"
 #include "mpi_drivers/options/launch_option.hpp"
-#include "mpi_drivers/options/option_checks.hpp"
 
 namespace coseg {
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "io/data_files/label_file.hpp"
 #include "io/data_files/result_files.hpp"
@@ -112,12 +113,35 @@ std::vector<MeshEntry> entries_of(const FinishedRun& run, const std::vector<std:
     return entries;
 }
 
+struct MeshOfRun {
+    std::string path;
+    static constexpr auto fields() { return std::tuple(field("path", &MeshOfRun::path)); }
+};
+
+/// The patches of a shape depend on its own mesh alone, its labels on all meshes: what has other patches than
+/// the run wrote is what has changed. If all have, something else has. Collective; throws AgreedError(input).
+void refuse_other_meshes(const Comm& comm, const BasePartition& run, const std::string& folder,
+                         const std::vector<MeshLabels>& labels) {
+    std::vector<MeshOfRun> changed;
+    agree(comm, [&] {
+        for (std::size_t k = 0; k < labels.size(); ++k) {
+            const MeshFacts& mesh = run.collection.meshes[at(run.collection.local[k].mesh)];
+            if (read_labels(result_files::path_of(result_files::patches, folder, mesh.name)) !=
+                labels[k].patch)
+                changed.push_back({mesh.path});
+        }
+    });
+    changed = all_gather_records(comm, changed);
+    if (changed.empty() || changed.size() == run.collection.meshes.size()) return;
+    const std::string others =
+        changed.size() > 1 ? ", like " + std::to_string(changed.size() - 1) + " more" : "";
+    throw AgreedError(ExitCode::input, changed.front().path + ": is not the mesh that the run was made of" +
+                                           others + "; put it back, or run coseg run again");
+}
+
 /// Corrections of a partition that the run does not have would come to nothing.
 void refuse_other_labels(const Comm& comm, const BasePartition& run, const std::string& folder,
-                         StageLog& log) {
-    const std::vector<MeshLabels> labels =
-        label_faces(comm, run.collection, run.cut, {run.options.partition.parts, run.options.output.refine},
-                    log, run.examples.faces);
+                         const std::vector<MeshLabels>& labels) {
     agree(comm, [&] {
         for (std::size_t k = 0; k < labels.size(); ++k) {
             const std::string path = result_files::path_of(
@@ -192,7 +216,12 @@ void edit(const Invocation& invocation, const EditOptions& options) {
     StageLog log(comm, run_options.process.verbosity(), run_options.process.log_form());
     const CheckedPetsc petsc(comm, invocation.petsc_arguments);
     const BasePartition run = base_partition(comm, entries, run_options, invocation.petsc_arguments, log);
-    if (!is_corrected(finished)) refuse_other_labels(comm, run, options.run, log);
+    if (!invocation.petsc_arguments.empty()) CheckedPetsc::refuse_unused(comm);
+    const std::vector<MeshLabels> labels =
+        label_faces(comm, run.collection, run.cut, {run.options.partition.parts, run.options.output.refine},
+                    log, run.examples.faces);
+    refuse_other_meshes(comm, run, options.run, labels);
+    if (!is_corrected(finished)) refuse_other_labels(comm, run, options.run, labels);
     std::unique_ptr<CorrectedParts> parts =
         corrected_parts_of(comm, run.base(), run.solved(), run.options.partition);
     EditSession session(comm, run.base(), std::move(parts), run.options.output.refine,
@@ -214,6 +243,7 @@ Command add_edit_command(CLI::App& parent) {
         ->type_name("MESH|DIRECTORY|@LIST");
     app->add_option("--port", options->port, "Port of 127.0.0.1 to serve on; 0: any that is free")
         ->check(CLI::Range(0, 65535))
+        ->transform(decimal_digits)
         ->capture_default_str();
     add_ranks_option(*app);
     app->add_flag("--quiet", options->quiet, "No progress lines; the address, warnings and errors only");

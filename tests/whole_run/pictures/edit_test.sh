@@ -18,6 +18,13 @@ cmp "$work/run/corrections.json" "$work/run2/corrections.json" || fail "the same
 ranks 3 "$COSEG" run --quiet --no-html --no-sheet "${options[@]}" --corrections "$work/run/corrections.json" --out "$work/again" "$work/set/meshes"
 diff -r "$work/run/corrected" "$work/again/labels" || fail "coseg run --corrections does not give the labels of the session"
 
+# Another mesh in the place of one is named, whichever shapes have other labels for it.
+cp -r "$work/set/meshes" "$work/kept_meshes"
+cp "$work/set/meshes/table_0003.off" "$work/set/meshes/table_0001.off"
+refuses "another mesh" 3 "table_0001.off: is not the mesh that the run was made of" "$COSEG" edit --quiet "$work/run3"
+cp "$work/kept_meshes/table_0001.off" "$work/set/meshes/"
+refuses "an option that nobody asks for" 2 "unused PETSc option: -ksp_rtol" "$COSEG" edit --quiet "$work/run3" -- -ksp_rtol 1e-5
+
 status=0
 python3 "$here/edit_in_browser.py" "$COSEG" "$work/run3" || status=$?
 [[ $status == 0 || $status == 77 ]] || fail "the page in a browser"
