@@ -26,7 +26,7 @@ void refuse_length(std::size_t shape, const char* what, std::size_t length, std:
 LabelledShape labelled(const Shape& shape, std::size_t index, const std::vector<int>& labels,
                        const std::vector<int>& truth) {
     LabelledShape row{.name = std::to_string(index), .truth = truth, .labels = {}, .face_area = {}};
-    row.face_area = polygon_areas(polygons_of(shape, index).mesh);
+    row.face_area = relative_areas(polygons_of(shape, index).mesh);
     const std::size_t faces = row.face_area.size();
     if (truth.size() != faces) refuse_length(index, "true labels", truth.size(), faces);
     if (!labels.empty() && labels.size() != faces) refuse_length(index, "labels", labels.size(), faces);

@@ -54,7 +54,7 @@ LabelledShape read_shape(const MeshEntry& mesh, const ScoreOptions& options) {
     LabelledShape shape{.name = mesh.name, .truth = {}, .labels = {}, .face_area = {}};
     if (!fs::exists(labels_path)) return shape;
     const PolygonMesh polygons = read_mesh(mesh.path);
-    shape.face_area = polygon_areas(polygons);
+    shape.face_area = relative_areas(polygons);
     shape.truth = read_labels(truth_path, polygons.face_count());
     shape.labels = read_labels(labels_path, polygons.face_count());
     return shape;

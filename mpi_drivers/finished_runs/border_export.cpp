@@ -1,12 +1,15 @@
 #include "mpi_drivers/finished_runs/border_export.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/part_files/border_file.hpp"
 #include "io/part_files/part_table.hpp"
 #include "mpi_drivers/finished_runs/shape_parts.hpp"
 #include "mpi_drivers/finished_runs/shown_descriptors.hpp"
+#include "src/base/error.hpp"
 #include "src/base/index.hpp"
+#include "src/mesh/moderate_scale.hpp"
 #include "src/mesh/polygon_area.hpp"
 #include "src/parallel/record_exchange.hpp"
 
@@ -26,6 +29,16 @@ std::vector<double> descriptor_means(const LabelledMesh& shape, int part, const 
     }
     for (double& mean : means) mean = total > 0.0 ? mean / total : 0.0;
     return means;
+}
+
+/// Measures are in the units of the files, whose squares and cubes doubles must hold.
+void refuse_extreme(const LabelledMesh& shape) {
+    const int exponent = extreme_exponent(shape.mesh);
+    if (exponent == 0) return;
+    throw Error(ExitCode::input, shape.path + ": its largest coordinate is about 1e" +
+                                     std::to_string(std::lround(exponent * std::log10(2.0))) +
+                                     ", of which no areas and volumes can be measured; scale the mesh and "
+                                     "run coseg run again");
 }
 
 MeasuredShape write_and_measure(const BorderExport& task, const LabelledMesh& shape) {
@@ -49,6 +62,7 @@ MeasuredShape write_and_measure(const BorderExport& task, const LabelledMesh& sh
 void export_borders(const Comm& comm, const BorderExport& task) {
     std::vector<MeasuredShape> measured;
     agree(comm, [&] {
+        for (const LabelledMesh& shape : task.shapes) refuse_extreme(shape);
         for (const LabelledMesh& shape : task.shapes) measured.push_back(write_and_measure(task, shape));
     });
     std::vector<MeasuredShape> all = gather_records(comm, measured);

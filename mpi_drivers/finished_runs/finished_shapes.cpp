@@ -118,7 +118,7 @@ int largest_truth_label(const std::vector<LabelledMesh>& shapes) {
 }
 
 void add_agreement(ExactSum& gains, const LabelledMesh& shape, int labels) {
-    const std::vector<double> areas = polygon_areas(shape.mesh);
+    const std::vector<double> areas = relative_areas(shape.mesh);
     const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::map<std::pair<int, int>, double> shares;
     for (std::size_t f = 0; f < shape.truth.size(); ++f) {
@@ -191,7 +191,7 @@ std::vector<bool> wrong_faces(const LabelledMesh& shape, const std::vector<int>&
 }
 
 std::optional<double> right_share(const LabelledMesh& shape, const std::vector<bool>& is_wrong) {
-    const std::vector<double> areas = polygon_areas(shape.mesh);
+    const std::vector<double> areas = relative_areas(shape.mesh);
     double right_area = 0.0;
     for (std::size_t f = 0; f < areas.size(); ++f) right_area += is_wrong[f] ? 0.0 : areas[f];
     const double total = std::accumulate(areas.begin(), areas.end(), 0.0);

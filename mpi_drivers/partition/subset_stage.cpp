@@ -46,7 +46,7 @@ Matching match_parts(const std::vector<int>& part_of_patch, const std::vector<in
     Matching matching{.part_of = best_assignment(shared)};
     double agreed = 0.0;
     for (int p = 0; p < parts; ++p) agreed += shared(p, matching.part_of[at(p)]);
-    if (shared.sum() > 0.0) matching.agreement = agreed / shared.sum();
+    if (shared.sum() > 0.0) matching.agreement = std::min(agreed / shared.sum(), 1.0);
     return matching;
 }
 

@@ -1,5 +1,6 @@
 #include "mpi_drivers/results/label_stage.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "solvers/boundaries/fuzzy_cut.hpp"
@@ -28,6 +29,7 @@ std::vector<double> area_shares(const MeshDescription& mesh, const std::vector<i
         const int part = part_of_input_face[at(mesh.map.input_face[f])];
         share[at(part)] += mesh.geometry.area[static_cast<Eigen::Index>(f)];
     }
+    for (double& of_part : share) of_part = std::min(of_part, 1.0);  // areas sum to 1 but for rounding
     return share;
 }
 

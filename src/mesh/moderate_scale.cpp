@@ -6,7 +6,7 @@
 namespace coseg {
 
 int extreme_exponent(const PolygonMesh& mesh) {
-    constexpr double largest = 1e100;
+    constexpr double largest = 1e60;
     double reach = 0.0;
     for (const Eigen::Vector3d& p : mesh.vertices) reach = std::max(reach, p.lpNorm<Eigen::Infinity>());
     if (reach == 0.0 || (reach <= largest && reach >= 1.0 / largest)) return 0;

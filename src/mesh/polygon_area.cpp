@@ -1,6 +1,9 @@
 #include "src/mesh/polygon_area.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
+
+#include "src/mesh/moderate_scale.hpp"
 
 namespace coseg {
 namespace {
@@ -21,6 +24,16 @@ double fan_area(const PolygonMesh& mesh, int face) {
 }  // namespace
 
 std::vector<double> polygon_areas(const PolygonMesh& mesh) {
+    std::vector<double> areas = relative_areas(mesh);
+    if (const int exponent = extreme_exponent(mesh); exponent != 0) {
+        for (double& area : areas) area = std::ldexp(area, 2 * exponent);
+    }
+    return areas;
+}
+
+std::vector<double> relative_areas(const PolygonMesh& mesh) {
+    if (const int exponent = extreme_exponent(mesh); exponent != 0)
+        return relative_areas(scaled_by_power(mesh, -exponent));
     std::vector<double> areas(mesh.face_count());
     for (int face = 0; face < mesh.face_count(); ++face) areas[face] = fan_area(mesh, face);
     return areas;

@@ -1,5 +1,6 @@
 #include "src/metrics/rand_index.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -31,9 +32,9 @@ PairSums pair_sums(const std::map<Cell, double>& weights) {
     return sums;
 }
 
-/// Ordered pairs together in one segmentation and apart in the other.
+/// Ordered pairs together in one segmentation and apart in the other; rounding makes it no less than 0.
 double disagreement(const PairSums& sums) {
-    return sums.together_in_labels + sums.together_in_truth - 2.0 * sums.together_in_both;
+    return std::max(sums.together_in_labels + sums.together_in_truth - 2.0 * sums.together_in_both, 0.0);
 }
 
 }  // namespace

@@ -107,13 +107,16 @@ Mapping many_to_one_mapping(const GainTable& table) {
     return mapping;
 }
 
+/// The shares of a shape sum to 1 but for rounding, which nobody should take for more than all.
+double at_most_all(double share) { return std::min(share, 1.0); }
+
 double accuracy(const AreaTable& table, const Mapping& mapping) {
     double right = 0.0;
     for (const auto& [cell, area] : table) {
         const auto mapped = mapping.find(cell.first);
         if (mapped != mapping.end() && mapped->second == cell.second) right += area;
     }
-    return right;
+    return at_most_all(right);
 }
 
 /// The truth label that covers most of the collection, each shape weighing the same. The table must not be
@@ -127,7 +130,7 @@ int largest_truth_label(const GainTable& table) {
 double area_of_truth_label(const AreaTable& table, int truth_label) {
     double sum = 0.0;
     for (const auto& [cell, area] : table) sum += cell.second == truth_label ? area : 0.0;
-    return sum;
+    return at_most_all(sum);
 }
 
 void set_means(SegmentationScore& score) {
@@ -182,7 +185,7 @@ double upper_bound_of_labels(const LabelledShape& shape) {
     }
     double right = 0.0;
     for (const auto& [label, area] : most) right += area;
-    return right;
+    return at_most_all(right);
 }
 
 }  // namespace coseg

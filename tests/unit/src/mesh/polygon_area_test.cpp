@@ -33,6 +33,17 @@ TEST(PolygonArea, OfARegularPolygonInAnyPlane) {
     EXPECT_NEAR(polygon_areas(mesh)[0], 0.5 * sides * 9.0 * std::sin(2.0 * std::numbers::pi / sides), 1e-12);
 }
 
+TEST(PolygonArea, OfTinyMeshes) {
+    for (const double side : {1e-60, 1e-78, 1e-100, 1e-140, 1e-200}) {
+        const PolygonMesh mesh{.vertices = {{0, 0, 0}, {side, 0, 0}, {side, 3 * side, 0}, {0, side, 0}},
+                               .offsets = {0, 3, 6},
+                               .corners = {0, 1, 2, 0, 1, 3}};
+        const std::vector<double> shares = relative_areas(mesh);
+        EXPECT_DOUBLE_EQ(shares[0], 3.0 * shares[1]) << side;
+        if (side > 1e-150) EXPECT_NEAR(polygon_areas(mesh)[0] / side / side, 1.5, 1e-12) << side;
+    }
+}
+
 TEST(PolygonArea, OfAnEmptyMeshIsEmpty) { EXPECT_TRUE(polygon_areas(PolygonMesh{}).empty()); }
 
 }  // namespace

@@ -35,6 +35,26 @@ TEST(SegmentationScore, IsOneForTheTruthUnderOtherNumbers) {
     EXPECT_EQ(score.truth_labels, 3);
 }
 
+TEST(SegmentationScore, IsNoMoreThanOne) {
+    // Areas whose shares sum to more than 1, by rounding.
+    for (int faces = 3; faces < 200; ++faces) {
+        std::vector<int> labels(static_cast<std::size_t>(faces));
+        std::vector<double> areas;
+        for (int f = 0; f < faces; ++f) {
+            labels[static_cast<std::size_t>(f)] = f % 7;
+            areas.push_back(0.1 + 1.0 / (f + 3));
+        }
+        const LabelledShape all = shape("a", labels, labels, areas);
+        const SegmentationScore score = score_segmentation({all});
+        EXPECT_LE(score.one_to_one, 1.0);
+        EXPECT_LE(score.many_to_one, 1.0);
+        EXPECT_LE(score.rand_index, 1.0);
+        EXPECT_LE(upper_bound_of_labels(all), 1.0);
+        EXPECT_LE(score_segmentation({shape("a", std::vector<int>(labels.size()), labels, areas)}).one_label,
+                  1.0);
+    }
+}
+
 TEST(SegmentationScore, WeighsFacesByTheirShareOfTheShape) {
     const SegmentationScore score =
         score_segmentation({shape("a", {0, 0, 1, 1}, {0, 1, 1, 1}, {50.0, 10.0, 20.0, 20.0})});
