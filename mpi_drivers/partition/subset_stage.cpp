@@ -50,6 +50,20 @@ Matching match_parts(const std::vector<int>& part_of_patch, const std::vector<in
     return matching;
 }
 
+/// Every subset is cut by itself. Whether one has too few patches is known before the first is solved.
+void refuse_too_few_patches(const Collection& collection, const OverlappingSubsets& plan, int size,
+                            int parts) {
+    for (const std::vector<int>& subset : plan.subsets) {
+        int patches = 0;
+        for (const int mesh : subset) patches += collection.numbering.count(mesh);
+        if (patches >= parts) continue;
+        throw AgreedError(ExitCode::usage, "--parts " + std::to_string(parts) + " exceeds the " +
+                                               std::to_string(patches) +
+                                               " patches of a subset of --subsets " + std::to_string(size) +
+                                               "; ask for fewer parts, more --patches or larger subsets");
+    }
+}
+
 }  // namespace
 
 SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, const PatchFeatures& features,
@@ -58,6 +72,7 @@ SubsetOutcome partition_subsets(const Comm& comm, const Collection& collection, 
     std::vector<std::string> names;
     for (const MeshFacts& mesh : collection.meshes) names.push_back(mesh.name);
     const OverlappingSubsets plan = overlapping_subsets(names, options.subsets, options.seed);
+    refuse_too_few_patches(collection, plan, options.subsets, options.parts);
     const auto patches = static_cast<std::size_t>(collection.numbering.patch_count());
     std::vector<int> known(patches, -1);
     ColumnAssembly columns(comm, collection.numbering.patch_count());

@@ -6,7 +6,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../fixture.sh"
 
 mkdir "$work/set"
 for waist in 0.40 0.45 0.50 0.55 0.60 0.65 0.70; do peanut "$work/set/p$waist.off" $waist; done
-common=(--quiet --patches 8 --geodesic-samples 40 --oversegmentations 3 --bins 20 --parts 2 --no-sheet --no-html)
+patches=(--quiet --patches 8 --geodesic-samples 40 --oversegmentations 3 --bins 20 --no-sheet --no-html)
+common=("${patches[@]}" --parts 2)
 
 "$COSEG" run "${common[@]}" --out "$work/whole" "$work/set"
 for count in 1 2 3; do
@@ -32,5 +33,7 @@ for count in 1 2; do
 done
 diff -r "$work/segments1/labels" "$work/segments2/labels" || fail "--segments gives other labels on 2 ranks"
 
+refuses "more parts than patches of a subset" 2 "--parts 97 exceeds the 96 patches of a subset of --subsets 4" \
+    "$COSEG" run "${patches[@]}" --parts 97 --subsets 4 --out "$work/x" "$work/set"
 refuses "subsets that are too small" 2 "--subsets" "$COSEG" run "${common[@]}" --subsets 3 --out "$work/x" "$work/set"
 echo "ok: subsets and segments"
