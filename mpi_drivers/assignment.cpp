@@ -78,6 +78,8 @@ AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, c
     std::vector<MeshLabels> labels =
         label_faces(comm, collection, assigned.cut, {partition.parts, output.refine}, log, examples.faces);
 
+    if (const auto sentence = unreached_gap(assigned.optimisation.result, optimise.gap, "the optimiser"))
+        log.keep_warning(*sentence);
     std::vector<OptionValue> values = option_values(options);
     values.push_back({"to", run, Affects::cut});
     const RunOutcome outcome{collection,

@@ -141,6 +141,9 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     std::vector<MeshLabels> labels =
         label_faces(comm, collection, cut, {parts, output.refine}, log, examples.faces);
     if (!petsc_arguments.empty()) CheckedPetsc::refuse_unused(comm);
+    // The run ends with this sentence; the report keeps it.
+    if (const auto sentence = unreached_gap(optimisation.result, options.optimise.gap, "the optimiser"))
+        log.keep_warning(*sentence);
 
     const RunOutcome outcome{
         collection, ranges, optimisation, cut,

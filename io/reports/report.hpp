@@ -155,6 +155,7 @@ struct Report {
     std::optional<ReportState> state;
     std::vector<ReportMesh> meshes;
     std::vector<SetAside> set_aside;
+    std::vector<std::string> warnings;  ///< about the whole run; those about shapes stand with them
     static constexpr auto fields() {
         return std::tuple(field("ranks", &Report::ranks), field("seconds", &Report::seconds),
                           field("peak_memory_sum_mib", &Report::peak_memory_sum_mib),
@@ -162,7 +163,7 @@ struct Report {
                           field("stages", &Report::stages), field("optimisation", &Report::optimisation),
                           field("partition", &Report::partition), field("features", &Report::features),
                           field("state", &Report::state), field("meshes", &Report::meshes),
-                          field("set_aside", &Report::set_aside));
+                          field("set_aside", &Report::set_aside), field("warnings", &Report::warnings));
     }
 };
 

@@ -25,11 +25,11 @@ void warn_of_meshes(const Collection& collection, const StageLog& log) {
     for (const SetAside& mesh : collection.set_aside) sentences.push_back("set aside: " + mesh.reason);
     for (const MeshFacts& mesh : collection.meshes)
         sentences.insert(sentences.end(), mesh.warnings.begin(), mesh.warnings.end());
-    for (std::size_t k = 0; k < std::min(shown, sentences.size()); ++k) log.warn(sentences[k]);
+    for (std::size_t k = 0; k < std::min(shown, sentences.size()); ++k) log.print_warning(sentences[k]);
     if (sentences.size() > shown) {
-        log.warn(with_unit(static_cast<std::int64_t>(sentences.size() - shown), "more warning is",
-                           "more warnings are") +
-                 " in the report");
+        log.print_warning(with_unit(static_cast<std::int64_t>(sentences.size() - shown), "more warning is",
+                                    "more warnings are") +
+                          " in the report");
     }
 }
 

@@ -207,7 +207,7 @@ FeatureBins fill_feature(const Comm& comm, const FeatureInput& input, std::vecto
 }
 
 /// Where shared memory does not suffice.
-void warn_of_copies(const PatchFeatures& features, const StageLog& log) {
+void warn_of_copies(const PatchFeatures& features, StageLog& log) {
     if (!features.histograms.fell_back()) return;
     log.warn(
         "shared memory (/dev/shm) has no room for the features, so every rank holds a copy of its own; "

@@ -104,11 +104,9 @@ void add_alignment(const CollectionShapes& shapes, const AlignmentFile& alignmen
 
 void add_solution(Segmentation& result, const SolveResult& solution, double gap) {
     result.certificate = certificate_of(solution);
-    try {
-        refuse_unreached_gap(solution, gap, "the optimiser");
-    } catch (const Error& error) {
+    if (const auto sentence = unreached_gap(solution, gap, "the optimiser")) {
         result.certificate.reached = false;
-        result.warnings.emplace_back(error.what());
+        result.warnings.push_back(*sentence);
     }
 }
 

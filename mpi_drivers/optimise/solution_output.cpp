@@ -54,12 +54,17 @@ void write_coefficients(const Comm& comm, const SolveResult& result, const std::
     });
 }
 
+std::optional<std::string> unreached_gap(const SolveResult& result, double gap, const std::string& subject) {
+    if (result.reason == StopReason::gap_reached || result.reason == StopReason::residual_reached)
+        return std::nullopt;
+    return subject + ": the gap of " + nlohmann::json(gap).dump() + " was not reached (" +
+           to_string(result.reason) + ", gap " + nlohmann::json(result.relative_gap).dump() +
+           "); raise --max-iterations or --max-seconds, or ask for a larger --gap";
+}
+
 void refuse_unreached_gap(const SolveResult& result, double gap, const std::string& subject) {
-    if (result.reason == StopReason::gap_reached || result.reason == StopReason::residual_reached) return;
-    throw AgreedError(ExitCode::not_converged,
-                      subject + ": the gap of " + nlohmann::json(gap).dump() + " was not reached (" +
-                          to_string(result.reason) + ", gap " + nlohmann::json(result.relative_gap).dump() +
-                          "); raise --max-iterations or --max-seconds, or ask for a larger --gap");
+    if (const auto sentence = unreached_gap(result, gap, subject))
+        throw AgreedError(ExitCode::not_converged, *sentence);
 }
 
 void refuse_empty_solution(const SolveResult& result, const std::string& subject) {

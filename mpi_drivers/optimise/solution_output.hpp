@@ -2,6 +2,7 @@
 // The functions that the commands that solve share: the certificate as JSON, the history, W as a file, and
 // the refusals that follow a solve.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ std::string certificate_json(const SubspaceProblem& problem, const SolveResult& 
 /// Gathers W on rank 0, which writes `path`. Does nothing if `path` is empty. Collective; throws
 /// AgreedError(output).
 void write_coefficients(const Comm& comm, const SolveResult& result, const std::string& path);
+
+/// What refuse_unreached_gap says; nothing where the gap was reached.
+std::optional<std::string> unreached_gap(const SolveResult& result, double gap, const std::string& subject);
 
 /// Throws AgreedError(not_converged), naming `subject`, where a limit ended the solve before the gap.
 void refuse_unreached_gap(const SolveResult& result, double gap, const std::string& subject);

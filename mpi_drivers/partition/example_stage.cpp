@@ -80,7 +80,7 @@ void refuse_strangers(const Collection& collection, const std::vector<std::strin
     }
 }
 
-void warn_of_labels_without_example(const Eigen::MatrixXd& areas, const StageLog& log) {
+void warn_of_labels_without_example(const Eigen::MatrixXd& areas, StageLog& log) {
     for (Eigen::Index label = 0; label < areas.rows(); ++label) {
         if (areas.row(label).sum() <= 0.0)
             log.warn("no example shows label " + std::to_string(label) +

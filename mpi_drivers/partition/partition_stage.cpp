@@ -19,7 +19,7 @@ namespace coseg {
 namespace {
 
 /// Says which part is hardly one, and what to do about it.
-void warn_of_degenerate_parts(const CutResult& cut, int parts, int meshes, const StageLog& log) {
+void warn_of_degenerate_parts(const CutResult& cut, int parts, int meshes, StageLog& log) {
     if (cut.starts.empty()) return;
     const StartOutcome& chosen = cut.starts[at(cut.chosen)];
     if (chosen.parts_found < parts) {

@@ -14,7 +14,7 @@ RunCheckpoints::Counts RunCheckpoints::counts(const Comm& comm) const {
             all_sum(comm, std::int64_t{tiles_->kept_count()}), cuts_->found_count()};
 }
 
-void RunCheckpoints::warn_of_damage(const StageLog& log) const {
+void RunCheckpoints::warn_of_damage(StageLog& log) const {
     if (!tiles_ || !cuts_) return;
     for (const std::string& warning : tiles_->warnings()) log.warn(warning);
     for (const std::string& warning : cuts_->warnings()) log.warn(warning);

@@ -28,7 +28,7 @@ class RunCheckpoints {
     /// Of all ranks. Collective.
     [[nodiscard]] Counts counts(const Comm& comm) const;
     /// Says which files were damaged. Collective.
-    void warn_of_damage(const StageLog& log) const;
+    void warn_of_damage(StageLog& log) const;
 
   private:
     std::optional<SolverCheckpointFiles> tiles_;

@@ -354,7 +354,7 @@ void refuse_other_dimensions(const RunModel& model, const CollectionDescriptors&
                                            std::to_string(model.face_feature_dimensions));
 }
 
-RunModel agreed_run_model(const Comm& comm, const std::string& folder, const StageLog& log) {
+RunModel agreed_run_model(const Comm& comm, const std::string& folder, StageLog& log) {
     RunModel model;
     agree(comm, [&] { model = read_run_model(folder); });
     if (!model.same_build) {

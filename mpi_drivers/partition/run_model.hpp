@@ -84,7 +84,7 @@ void refuse_other_dimensions(const RunModel& model, const CollectionDescriptors&
 
 /// The model of the run in `folder`, on every rank; warns where another build of coseg has made it.
 /// Collective; throws AgreedError as read_run_model throws.
-RunModel agreed_run_model(const Comm& comm, const std::string& folder, const StageLog& log);
+RunModel agreed_run_model(const Comm& comm, const std::string& folder, StageLog& log);
 
 /// The model of the run in `folder`. Throws Error(input) where the folder holds no run, the run kept no
 /// model, or the model is damaged or of another version.

@@ -141,6 +141,7 @@ void add_run_facts(const Comm& comm, Report& report, const StageLog& log) {
     MPI_Allreduce(&mine, &report.peak_memory_sum_mib, 1, MPI_DOUBLE, MPI_SUM, comm.raw());
     report.peak_memory_max_mib = all_max(comm, mine);
     report.stages = log.stages();
+    report.warnings = log.warnings();
 }
 
 }  // namespace

@@ -70,8 +70,7 @@ class Result:
         Shapes that segment() was given as arrays have the index that they had there; files, whose places the report
         does not tell, come in the order of their names in between. Shapes that were set aside are among them. Raises
         InputError for a folder that holds no run, and for labels that the run did not have. `warnings` has those of
-        shapes, and also names report.json and label files that are not as the run wrote them; warnings of the whole run
-        are in no file.
+        the run and of shapes, and also names report.json and label files that are not as the run wrote them.
         """
         folder = os.fsdecode(given_folder_of_run("folder", folder))
         report = _read_report(folder)
@@ -164,7 +163,7 @@ def _result_of_folder(folder: str, report: Dict[str, Any], changed: List[str]) -
                      "nonzero_pairs": solution["nonzero_groups"]},
         report=report,
         warnings=changed + [f"set aside: {reason}" for reason in set_aside.values()] +
-        [warning for shape in used for warning in shape["warnings"]],
+        [warning for shape in used for warning in shape["warnings"]] + [str(one) for one in report.get("warnings", [])],
         set_aside=set_aside, folder=folder, alignment=_read_alignment(folder, names, set_aside))
 
 

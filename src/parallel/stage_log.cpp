@@ -173,7 +173,12 @@ void StageLog::print(const StageTimes& times, const std::string& summary) const 
     std::fflush(stderr);
 }
 
-void StageLog::warn(const std::string& sentence) const {
+void StageLog::warn(const std::string& sentence) {
+    keep_warning(sentence);
+    print_warning(sentence);
+}
+
+void StageLog::print_warning(const std::string& sentence) const {
     if (listener_.warning) return listener_.warning(sentence);
     if (!comm_.is_root()) return;
     if (form_ == LogForm::json)

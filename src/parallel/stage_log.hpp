@@ -61,8 +61,18 @@ class StageLog {
     /// Closes the stage and prints its line, with `summary` as what rank 0 says of the result. Collective.
     void end(const std::string& summary);
 
-    /// Prints a sentence on rank 0; other ranks print nothing. Not collective.
-    void warn(const std::string& sentence) const;
+    /// Prints a sentence about the whole run on rank 0, and keeps it on every rank for the report. Not
+    /// collective.
+    void warn(const std::string& sentence);
+
+    /// Prints a sentence on rank 0 that the report has elsewhere, as with its shape. Not collective.
+    void print_warning(const std::string& sentence) const;
+
+    /// Keeps a sentence for the report that is told in another way. Not collective.
+    void keep_warning(const std::string& sentence) { warnings_.push_back(sentence); }
+
+    /// What warn() was given and keep_warning(), in this order.
+    [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
     [[nodiscard]] const std::vector<StageTimes>& stages() const noexcept { return stages_; }
     [[nodiscard]] double seconds_since_start() const;
@@ -90,6 +100,7 @@ class StageLog {
     double own_seconds_ = -1.0;
     std::vector<StepTime> steps_;  // of this rank
     std::vector<StageTimes> stages_;
+    std::vector<std::string> warnings_;
     bool keeps_trace_ = false;
     Clock::time_point trace_start_;
     RankTrace trace_;

@@ -372,7 +372,7 @@ def test_a_loaded_result_has_the_shapes_that_were_set_aside():
     loaded = coseg.Result.load(WORK / "aside")
     assert loaded.names == called.names == ["d", "c", "b", "a"]
     assert loaded.set_aside == called.set_aside and list(loaded.set_aside) == [1]
-    assert set(loaded.warnings) == {warning for warning in called.warnings if "parts are asked for" not in warning}
+    assert set(loaded.warnings) == set(called.warnings) and any("parts are asked for" in one for one in loaded.warnings)
     assert f"set aside: {called.set_aside[1]}" in loaded.warnings
     for mine, other in zip(loaded.labels + loaded.patches, called.labels + called.patches):
         assert np.array_equal(mine, other)
