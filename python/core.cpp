@@ -8,9 +8,12 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <coseg/coseg.hpp>
+#include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -286,7 +289,10 @@ py::list generate(const std::string& family, int count, std::uint64_t seed, int 
     std::vector<coseg::GeneratedShape> shapes;
     {
         const py::gil_scoped_release released;
-        shapes = coseg::generate(family, count, seed, faces);
+        shapes = coseg::generate(family, count, seed, faces, [](int /*number*/) {
+            const py::gil_scoped_acquire held;
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();  // Ctrl-C
+        });
     }
     py::list list;
     for (coseg::GeneratedShape& shape : shapes)
@@ -299,14 +305,6 @@ py::list generate(const std::string& family, int count, std::uint64_t seed, int 
 MPI_Comm leaving = MPI_COMM_NULL;
 bool has_left = false;
 
-/// The handle of MPI_COMM_WORLD, for scripts that mpirun starts and that have no mpi4py. Collective the first
-/// time.
-int world() {
-    coseg::start();
-    if (leaving == MPI_COMM_NULL) MPI_Comm_dup(MPI_COMM_WORLD, &leaving);
-    return static_cast<int>(MPI_Comm_c2f(MPI_COMM_WORLD));
-}
-
 /// Waits until all processes have come here or have been here; at most so many seconds, unless that is
 /// negative. Whether they have.
 bool leave_together(double seconds) {
@@ -314,7 +312,6 @@ bool leave_together(double seconds) {
     MPI_Finalized(&is_finalized);
     if (has_left || is_finalized != 0) return true;
     has_left = true;
-    const py::gil_scoped_release released;
     const auto begin = std::chrono::steady_clock::now();
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ibarrier(leaving, &request);
@@ -328,7 +325,34 @@ bool leave_together(double seconds) {
     }
 }
 
-void end_all() { MPI_Abort(MPI_COMM_WORLD, 1); }
+/// Where all processes fail alike, they come to their ends within this time.
+constexpr double seconds_to_fail_together = 5.0;
+
+/// A process that fails alone does not leave the others waiting for ever.
+void leave_failed() {
+    if (!leave_together(seconds_to_fail_together)) MPI_Abort(MPI_COMM_WORLD, 1);
+}
+
+/// The interpreter tells nobody with what code it ends. The C library does, when the interpreter is gone and
+/// MPI still there, however the script has ended: sys.exit, SystemExit or an exception.
+void leave_at_exit(int code, void* started_by) {
+    if (::getpid() != static_cast<pid_t>(reinterpret_cast<std::intptr_t>(started_by))) return;  // forked
+    if (code == 0)
+        leave_together(-1.0);
+    else
+        leave_failed();
+}
+
+/// The handle of MPI_COMM_WORLD, for scripts that mpirun starts and that have no mpi4py. Collective the first
+/// time.
+int world() {
+    coseg::start();
+    if (leaving == MPI_COMM_NULL) {
+        MPI_Comm_dup(MPI_COMM_WORLD, &leaving);
+        ::on_exit(leave_at_exit, reinterpret_cast<void*>(static_cast<std::intptr_t>(::getpid())));
+    }
+    return static_cast<int>(MPI_Comm_c2f(MPI_COMM_WORLD));
+}
 
 void add_arguments(py::module_& module) {
     py::class_<SegmentArguments>(module, "SegmentArguments")
@@ -397,6 +421,6 @@ PYBIND11_MODULE(_core, module) {
     module.def("cluster", &cluster);
     module.def("start", &coseg::start);
     module.def("world", &world);
-    module.def("leave_together", &leave_together);
-    module.def("end_all", &end_all);
+    module.def("leave_together", &leave_together, py::call_guard<py::gil_scoped_release>());
+    module.def("leave_failed", &leave_failed, py::call_guard<py::gil_scoped_release>());
 }

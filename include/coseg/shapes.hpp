@@ -5,6 +5,7 @@
 // ended. No function is collective.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -77,6 +78,11 @@ struct GeneratedShape {
 /// each with about so many faces (500 .. 200000). Failure: 2.
 COSEG_VISIBLE std::vector<GeneratedShape> generate(const std::string& family, int count,
                                                    std::uint64_t seed = 1, int faces = 5000);
+
+/// The same; `before_each` is called with the number of every shape before it is made, and what it throws
+/// ends the call.
+COSEG_VISIBLE std::vector<GeneratedShape> generate(const std::string& family, int count, std::uint64_t seed,
+                                                   int faces, const std::function<void(int)>& before_each);
 
 // ---- Finished runs ----
 

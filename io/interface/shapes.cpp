@@ -111,12 +111,20 @@ std::vector<std::string> interface_1::mesh_files(const std::vector<std::string>&
 
 std::vector<GeneratedShape> interface_1::generate(const std::string& family, int count, std::uint64_t seed,
                                                   int faces) {
+    return generate(family, count, seed, faces, [](int /*number*/) {});
+}
+
+std::vector<GeneratedShape> interface_1::generate(const std::string& family, int count, std::uint64_t seed,
+                                                  int faces, const std::function<void(int)>& before_each) {
     return with_failures([&] {
         if (count < 1 || count > most_generated_shapes)
             throw Error(ExitCode::usage, "count: " + std::to_string(count) + " is not in 1 .. " +
                                              std::to_string(most_generated_shapes));
         std::vector<GeneratedShape> shapes;
-        for (int k = 0; k < count; ++k) shapes.push_back(generated(family, k, count, seed, faces));
+        for (int k = 0; k < count; ++k) {
+            before_each(k);
+            shapes.push_back(generated(family, k, count, seed, faces));
+        }
         return shapes;
     });
 }

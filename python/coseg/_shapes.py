@@ -10,7 +10,7 @@ import numbers
 import operator
 import os
 import sys
-from typing import Any, Iterable, Mapping, NoReturn, Optional, Sequence, Tuple, Union
+from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -275,76 +275,25 @@ def given_options(options: Mapping[str, Any]) -> list:
     return given
 
 
-#: Where all processes fail alike, they come to their ends within this time.
-_SECONDS_TO_FAIL_TOGETHER = 5.0
-
-#: Whether the interpreter ends by sys.exit with another code than 0. Nothing of Python says so at its end.
-_ends_by_failure = False
-
-
-class _Exit(SystemExit):
-    """What sys.exit raises where processes share work: it notices that the interpreter ends by it.
-
-    The interpreter asks for `code` when the exception has left everything and before it calls what atexit holds. No
-    function of Python is at work then, as one is wherever a script catches the exception and looks at it.
-    """
-
-    @property
-    def code(self) -> Any:
-        global _ends_by_failure  # pylint: disable=global-statement
-        code = SystemExit.code.__get__(self)
-        if sys._getframe().f_back is None:
-            _ends_by_failure = code is not None and code != 0
-        return code
-
-    @code.setter
-    def code(self, code: Any) -> None:
-        SystemExit.code.__set__(self, code)
-
-    def __reduce__(self) -> Any:
-        return SystemExit, self.args
-
-
-_Exit.__name__ = _Exit.__qualname__ = "SystemExit"
-_Exit.__module__ = "builtins"
-
-
-def _exit(status: Any = None, /) -> NoReturn:
-    raise _Exit(*(status if isinstance(status, tuple) else () if status is None else (status,)))
-
-
-def _notice_exit() -> None:
-    """Has sys.exit, and exit and quit of the site module, raise what notices the end of the interpreter."""
-    _exit.__name__, _exit.__doc__ = "exit", sys.exit.__doc__
-    sys.exit = _exit
-    if "_sitebuiltins" in sys.modules:
-        vars(sys.modules["_sitebuiltins"])["SystemExit"] = _Exit
-
-
-def _leave_or_end_all() -> None:
-    sys.stderr.flush()
-    if not _core.leave_together(_SECONDS_TO_FAIL_TOGETHER):
-        _core.end_all()
-
-
 @functools.lru_cache(maxsize=None)
 def _end_together() -> None:
-    """Sees to it that a process which fails alone, by an exception of its own or by sys.exit, does not leave the others
-    waiting for ever."""
+    """Sees to it that a process which fails alone does not leave the others waiting for ever.
+
+    The extension does at the end of the process, when its exit code is known. Where mpi4py has started MPI, it ends MPI
+    before that: there an exception ends the others here, and any other end is taken for a normal one.
+    """
     before = sys.excepthook
 
     def tell_and_end(*told: Any) -> None:
         before(*told)
-        _leave_or_end_all()
+        sys.stderr.flush()
+        _core.leave_failed()
 
     def wait_at_exit() -> None:
-        if _ends_by_failure:
-            _leave_or_end_all()
-        else:
+        if "mpi4py.MPI" in sys.modules:
             _core.leave_together(-1.0)
 
     sys.excepthook = tell_and_end
-    _notice_exit()
     atexit.register(wait_at_exit)
 
 

@@ -644,8 +644,17 @@ def test_the_interpreter_is_free_and_ctrl_c_works(tables):
     assert coseg.segment(tables[:2], 2, **TINY).parts == 2
 
 
+def test_ctrl_c_ends_generate():
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        coseg.generate("table", 100000, faces=500)
+    assert time.monotonic() - start < 5
+
+
 LEAVES = """
 import os, sys, time
+from sys import exit as early_exit
 import coseg
 how, first = sys.argv[1], os.environ["OMPI_COMM_WORLD_RANK"] == "0"
 coseg.cluster([[2, 1], [1, 2], [2, 1], [1, 2]], 2, comm="world")
@@ -657,13 +666,16 @@ if how == "works on":
     time.sleep(7 if first else 0)
     print("rank 0 has worked on" if first else "", flush=True)
     sys.exit(0)
+if not first and how == "raised":
+    raise SystemExit(how)
 if not first:
-    sys.exit(how)
+    early_exit(how) if how == "early" else sys.exit(how)
 coseg.cluster([[2, 1], [1, 2], [2, 1], [1, 2]], 2, comm="world")
 """
 
 
-@pytest.mark.parametrize("how, code, words", [("a reason to end", 1, "a reason to end"), ("works on", 0, "rank 0 has worked on")])
+@pytest.mark.parametrize("how, code, words", [("a reason to end", 1, "a reason to end"), ("raised", 1, "raised"),
+                                              ("early", 1, "early"), ("works on", 0, "rank 0 has worked on")])
 def test_a_process_that_exits_ends_the_others_only_if_it_fails(how, code, words):
     answer = subprocess.run(["mpirun", "--oversubscribe", "-n", "2", sys.executable, "-c", LEAVES, how], env=dict(os.environ),
                             capture_output=True, text=True, check=False, timeout=60)
