@@ -148,8 +148,9 @@ MeshOutcome assign_mesh(const Comm& self, const MeshDescription& mesh, const Ass
     }
     const SinglePrecisionFeatures features(self, problem.features);
     const Eigen::Matrix3Xd as_in_file = input.features.positions.middleCols(first, count);
-    LinkedPoints places;  // none where places do not count
-    if (places_count(known.model))
+    // Also where places do not count: pictures and alignment.json show how the shape stands.
+    LinkedPoints places;
+    if (known.model.places.shapes.agreement > 0.0)
         places = linked_points(known.model, added.links, added.patch_area, as_in_file);
     outcome.figures.pose = added_pose(places, known.model.places.shapes, mesh.key);
     const Eigen::Matrix3Xd own_positions = turned_positions(outcome.figures.pose.pose, as_in_file);

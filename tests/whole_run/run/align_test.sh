@@ -125,5 +125,17 @@ for name in ("quadruped_0001", "quadruped_0004"):
     total += len(turned)
 assert same > .95 * total, f"{same} of {total} faces have the labels of the shape that stands"
 END
+# Also where places do not count, pictures show a new shape as it stands in the frame of the run: one of the run itself, as there.
+"$COSEG" run "${common[@]}" --quiet --no-sheet --no-places --state "$work/state" --out "$work/no_places" "$work/turned"
+cp "$work/turned/quadruped_0002.off" "$work/again.off"
+"$COSEG" assign --to "$work/no_places" --quiet --no-html --no-sheet --out "$work/added" "$work/again.off"
+python3 - "$COSEG_SOURCE/bench" "$work" <<'END' || fail "a new shape is not turned where places do not count"
+import json, sys
+sys.path.insert(0, sys.argv[1])
+from alignment import angle
+of_run, of_new = (json.load(open(f"{sys.argv[2]}/{run}/alignment.json")) for run in ("no_places", "added"))
+[inside] = [s["rotation"] for s in of_run["shapes"] if s["name"] == "quadruped_0002"]
+assert of_run["aligned"] and of_new["aligned"] and angle(of_new["shapes"][0]["rotation"], inside) < 12, (inside, of_new)
+END
 refuses "an unknown way of aligning" 2 "--align" "$COSEG" run "${common[@]}" --align maybe --out "$work/x" "$work/turned"
 echo "ok: align"
