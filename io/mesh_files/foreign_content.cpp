@@ -72,6 +72,16 @@ std::string_view mesh_format_of(std::string_view bytes) {
 /// Every glTF file in JSON has an object of this name.
 bool is_gltf_text(std::string_view bytes) { return bytes.find("\"asset\"") != std::string_view::npos; }
 
+/// An object of JSON begins with a name in quotation marks or is empty. Geomview writes objects in braces
+/// too.
+std::optional<std::string> in_braces(std::string_view bytes, std::string_view beginning) {
+    if (!beginning.starts_with("{") || is_gltf_text(bytes)) return std::nullopt;
+    const std::size_t next = beginning.find_first_not_of(" \t\r\n", 1);
+    if (next == std::string_view::npos || beginning[next] == '"' || beginning[next] == '}')
+        return "text in JSON, perhaps of a server; download the mesh again, or convert it";
+    return "text in braces, perhaps of Geomview; keep what stands between them, the mesh";
+}
+
 /// Readers of either glTF format take both forms.
 std::optional<std::string> other_gltf(std::string_view bytes, std::string_view beginning,
                                       std::string_view format) {
@@ -115,8 +125,7 @@ std::optional<std::string> foreign_content(std::string_view bytes, std::string_v
     if (std::optional<std::string> what = named(beginning, other_formats, convert)) return what;
     if (beginning.starts_with("<")) return "text in XML or HTML, not a mesh; download the mesh again";
     if (std::optional<std::string> what = other_gltf(bytes, beginning, format)) return what;
-    if (beginning.starts_with("{") && !is_gltf_text(bytes))
-        return "text in JSON, perhaps of a server; download the mesh again, or convert it";
+    if (std::optional<std::string> what = in_braces(bytes, beginning)) return what;
     const std::string_view found = mesh_format_of(bytes);
     if (found.empty() || found == format) return std::nullopt;
     const std::string article = found == "PLY" ? "a " : "an ";

@@ -158,7 +158,8 @@ ParsedMesh read_gltf(std::string_view bytes, const std::string& path) {
     ParsedMesh parsed{read_welded(collected), container.warnings};
     if (scene.passed_over > 0) {
         parsed.warnings.push_back(path + ": " + with_unit(scene.passed_over, "primitive", "primitives") +
-                                  " of points or lines are passed over");
+                                  " of points or lines " + (scene.passed_over == 1 ? "is" : "are") +
+                                  " passed over");
     }
     if (const std::optional<std::string> lost = lost_digits(parsed.mesh);
         lost && stands_where_it_was_made(scene))

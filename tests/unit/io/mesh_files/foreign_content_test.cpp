@@ -39,6 +39,7 @@ TEST(ForeignContent, FilesThatAreNoMeshes) {
     expect_named("\xEF\xBB\xBF\n <HTML>\n", "a web page");
     expect_named("<Error><Code>AccessDenied</Code></Error>", "text in XML or HTML");
     expect_named("{\"message\": \"Not Found\"}", "text in JSON");
+    expect_named("{ OFF\n0 0 0\n}\n", "text in braces, perhaps of Geomview");
     expect_named("PK\x03\x04 something", "a ZIP archive");
     expect_named(with_zeros("\x1f\x8b\x08\x00 something"), "a gzip archive");
     expect_named(with_zeros("glTF\x02\x00\x00\x00"), "a binary glTF file", {"GLB", "glTF"});
