@@ -40,7 +40,9 @@ TEST(PolygonArea, OfTinyMeshes) {
                                .corners = {0, 1, 2, 0, 1, 3}};
         const std::vector<double> shares = relative_areas(mesh);
         EXPECT_DOUBLE_EQ(shares[0], 3.0 * shares[1]) << side;
-        if (side > 1e-150) EXPECT_NEAR(polygon_areas(mesh)[0] / side / side, 1.5, 1e-12) << side;
+        if (side > 1e-150) {
+            EXPECT_NEAR(polygon_areas(mesh)[0] / side / side, 1.5, 1e-12) << side;
+        }
     }
 }
 
