@@ -56,7 +56,7 @@ parts=${words[1]}
 meshes_in() { find -L "$1" -maxdepth 1 -type f -iregex '.*\.\(off\|obj\|ply\|stl\|glb\|gltf\|vtp\)' | wc -l; }
 
 if [[ $collection == @* ]]; then
-    [[ -r ${collection#@} ]] || { echo "error: ${collection#@} cannot be read" >&2; exit 3; }
+    [[ -f ${collection#@} && -r ${collection#@} ]] || { echo "error: ${collection#@} is no list that can be read" >&2; exit 3; }
     count=0
     folder=$(dirname "${collection#@}")
     while IFS= read -r line || [[ -n $line ]]; do

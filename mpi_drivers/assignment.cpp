@@ -57,6 +57,7 @@ AssignedLabels assign(const Comm& comm, const std::vector<MeshEntry>* entries, c
     const RunOptions options = options_of_assignment(model.options, own);
     const auto& [preset, description, feature_options, optimise, partition, output, process] = options;
     RunFolders folders(comm, output, process);
+    folders.keep_apart(comm, partition.examples);
 
     // Every new mesh by itself, as the run described its own.
     auto [collection, descriptors] =

@@ -108,6 +108,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     refuse_contradictions(options);
     if (options.output.profile) begin_profile(log);
     RunFolders folders(comm, options.output, options.process);
+    folders.keep_apart(comm, options.partition.examples);
     RunCheckpoints checkpoints(comm, folders.state(),
                                cut_option_text(option_values(options), petsc_arguments));
     auto [base, ranges, model, alignment] =

@@ -178,17 +178,26 @@ bool is_result_file(const std::string& name) {
     return name == result_files::report || name == result_files::corrections || is_of_some_runs(name);
 }
 
-/// The corrections of an earlier run are a person's work: others do not replace them, but get their name.
-void keep_earlier_corrections(const fs::path& old, const fs::path& fresh) {
-    const fs::path earlier = old / result_files::corrections;
+/// What a person has written of an earlier run is not lost: where the new results replace the file or end what
+/// it was about, it gets the name with a number.
+void keep_work_of_a_person(const std::string& name, const fs::path& old, const fs::path& fresh) {
+    const fs::path earlier = old / name;
     std::error_code ignored;
-    if (!fs::is_regular_file(earlier, ignored) || !fs::exists(fresh / result_files::corrections, ignored) ||
-        read_regular_file(earlier.string()) == read_file((fresh / result_files::corrections).string()))
-        return;
+    const bool is_replaced = fs::exists(fresh / name, ignored);
+    if (!fs::is_regular_file(earlier, ignored) || !(is_replaced || is_of_some_runs(name))) return;
+    if (is_replaced && read_regular_file(earlier.string()) == read_file((fresh / name).string())) return;
     fs::path kept;
     for (int k = 1; kept.empty() || fs::exists(kept, ignored); ++k)
-        kept = old / ("corrections_" + std::to_string(k) + ".json");
+        kept = old / (earlier.stem().string() + "_" + std::to_string(k) + earlier.extension().string());
     move_entry(earlier, kept);
+}
+
+/// Whether a run has written the folder: nothing else in it is ours to remove.
+bool is_of_a_run(const fs::path& folder) {
+    std::ifstream report(folder / result_files::report, std::ios::binary);
+    std::string begin(256, '\0');
+    report.read(begin.data(), std::ssize(begin));
+    return begin.find("\"coseg report") != std::string::npos;
 }
 
 void refuse_folders_for_files(const fs::path& folder, const auto& is_file_of_ours) {
@@ -368,11 +377,14 @@ void OutputDirectory::commit() {
 }
 
 void OutputDirectory::move_into_existing() const {
-    for (const MeshResult& result : replaced_results())
-        remove_stale(result.folder, result.suffix, path_, staging_);
-    remove_stale_levels(path_, staging_);
-    remove_stale_files(path_, staging_);
-    keep_earlier_corrections(path_, staging_);
+    if (is_of_a_run(path_)) {
+        for (const std::string name : {result_files::names, result_files::corrections})
+            keep_work_of_a_person(name, path_, staging_);
+        for (const MeshResult& result : replaced_results())
+            remove_stale(result.folder, result.suffix, path_, staging_);
+        remove_stale_levels(path_, staging_);
+        remove_stale_files(path_, staging_);
+    }
     merge_folder(staging_, path_);
 }
 

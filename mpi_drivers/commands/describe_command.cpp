@@ -45,7 +45,7 @@ std::vector<MeshEntry> entries_of(const Shard& shard, std::vector<MeshEntry> ent
 void describe(const Comm& world, const RunOptions& options, const std::string& shard_text) {
     const Shard shard = parsed_shard(shard_text);
     const ProcessOptions& process = options.process;
-    StageLog log(world, process.quiet ? Verbosity::quiet : Verbosity::normal);
+    StageLog log(world, process.verbosity(), process.log_form());
     const RunState state(world, process.state, LockMode::shared, process.checkpoint_seconds);
     const std::vector<MeshEntry> all = list_meshes(world, process.inputs);
     const DescriptionOptions description = with_oversegmentations(description_options(options), all.size());

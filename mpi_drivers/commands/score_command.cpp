@@ -81,6 +81,13 @@ ScoreInput read_input(const ScoreOptions& options) {
             bounds += bound_of_patches(input.shapes.back(), options);
         }
     }
+    const bool has_labels = std::any_of(input.shapes.begin(), input.shapes.end(),
+                                        [](const LabelledShape& shape) { return shape.labels.has_value(); });
+    if (!input.shapes.empty() && !has_labels) {
+        throw Error(ExitCode::input, "no mesh has its labels in '" + options.labels_folder + "'; those of '" +
+                                         input.shapes.front().name + "' would be '" +
+                                         label_path(options.labels_folder, input.shapes.front().name) + "'.");
+    }
     if (!input.shapes.empty()) {
         input.patch_bound = bounds / static_cast<double>(input.shapes.size());
         return input;

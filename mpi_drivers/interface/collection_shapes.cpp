@@ -14,7 +14,7 @@ namespace coseg {
 
 namespace {
 
-constexpr std::size_t longest_name = 200;  // a file's name has 255 bytes, with suffixes and temporary names
+constexpr std::size_t longest_name = 251;  // a file's name has 255 bytes, with a suffix such as .seg
 
 std::string standard_name(std::size_t index) {
     std::array<char, 32> text{};
@@ -29,7 +29,7 @@ void refuse_bad_name(const MeshEntry& entry, std::size_t index) {
     if (is_bad)
         throw Error(ExitCode::usage, "shape " + std::to_string(index) +
                                          ": its name must be that of a file: not empty, without '/', of at "
-                                         "most 200 bytes");
+                                         "most 251 bytes");
 }
 
 MeshEntry file_entry(const Shape& shape, std::size_t index) {

@@ -77,10 +77,38 @@ void prepare_environment() {
 volatile pid_t worker = 0;
 volatile bool worker_keeps_state = false;
 
+/// The signal by which this process was asked to end, 0 before.
+volatile std::sig_atomic_t asked_to_end = 0;
+
 /// mpirun that is terminated ends with 1 at once, whatever its ranks say. Ranks that keep a state are asked
 /// to write it, by the signal that mpirun hands on to them.
-void hand_on_signal(int signal) {
+void send_to_worker(int signal) {
     if (worker > 0) ::kill(worker, signal == SIGTERM && worker_keeps_state ? SIGUSR1 : signal);
+}
+
+void hand_on_signal(int signal) {
+    if (signal == SIGTERM || signal == SIGHUP) asked_to_end = signal;
+    send_to_worker(signal);
+}
+
+/// A terminal's interrupt reaches mpirun too, and of a second one it would leave its ranks behind. One that
+/// was meant for this process alone is handed on when the worker should have ended by itself.
+void heed_interrupt(int signal, siginfo_t* cause, void* /*context*/) {
+    constexpr unsigned grace = 3;  // seconds; mpirun ends its ranks within about one
+    asked_to_end = signal;
+    if (cause->si_code != SI_KERNEL) alarm(grace);
+}
+
+void end_worker(int /*signal*/) { send_to_worker(SIGTERM); }
+
+/// An interrupt that is ignored, as in the background of a script, stays so.
+void set_interrupt_handlers() {
+    if (std::signal(SIGINT, SIG_IGN) == SIG_IGN) return;
+    std::signal(SIGALRM, end_worker);
+    struct sigaction action {};
+    action.sa_sigaction = heed_interrupt;
+    action.sa_flags = SA_SIGINFO | SA_RESTART;
+    sigaction(SIGINT, &action, nullptr);
 }
 
 /// In the child: becomes the program, and ends with the parent whatever ends that. Where there is no such
@@ -94,15 +122,20 @@ void hand_on_signal(int signal) {
     _exit(1);
 }
 
-/// Ends as the worker has ended.
-[[noreturn]] void end_like(int status) {
-    if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
-    std::signal(WTERMSIG(status), SIG_DFL);
-    std::raise(WTERMSIG(status));
-    _exit(128 + WTERMSIG(status));
+[[noreturn]] void end_by(int signal) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+    _exit(128 + signal);
 }
 
-/// Runs a program in place of this one. A terminal's interrupt reaches both; other signals are handed on.
+/// Ends as the worker has ended. mpirun that was ended by a signal says 1, which is for defects.
+[[noreturn]] void end_like(int status) {
+    if (!WIFEXITED(status)) end_by(WTERMSIG(status));
+    if (asked_to_end != 0 && WEXITSTATUS(status) == 1) end_by(asked_to_end);
+    _exit(WEXITSTATUS(status));
+}
+
+/// Runs a program in place of this one, to which signals are handed on.
 /// Returns only where there is no such program.
 void run_instead(const std::vector<char*>& line, bool keeps_state) {
     std::array<int, 2> failed{};
@@ -117,7 +150,7 @@ void run_instead(const std::vector<char*>& line, bool keeps_state) {
     for (const int signal : handed_on) {
         if (std::signal(signal, hand_on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);  // as nohup has it
     }
-    std::signal(SIGINT, SIG_IGN);
+    set_interrupt_handlers();
     int status = 0;
     while (waitpid(worker, &status, 0) < 0 && errno == EINTR) {
     }

@@ -44,20 +44,25 @@ std::vector<std::string> folders_of_meshes() {
     return folders;
 }
 
-void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::string& out) {
+/// Throws Error(output) where the folder, in which `what` lies, is one whose files the results replace.
+void refuse_replaced_folder(const std::filesystem::path& folder, const std::string& what,
+                            const std::string& out) {
     namespace fs = std::filesystem;
     std::error_code ignored;
     const fs::path results = fs::weakly_canonical(fs::absolute(out), ignored);
-    std::set<fs::path> seen;  // a collection has far fewer folders than meshes
+    for (const std::string& own : folders_of_meshes()) {
+        if (!fs::equivalent(folder, results / own, ignored)) continue;
+        throw Error(ExitCode::output, what + ": lies in the folder " + own +
+                                          "/ of the results, which the run replaces; name another --out");
+    }
+}
+
+void refuse_input_in_results(const std::vector<MeshEntry>& entries, const std::string& out) {
+    std::set<std::filesystem::path> seen;  // a collection has far fewer folders than meshes
     for (const MeshEntry& entry : entries) {
         if (entry.polygons != nullptr) continue;
-        const fs::path parent = fs::absolute(entry.path).parent_path();
-        if (!seen.insert(parent).second) continue;
-        for (const std::string& own : folders_of_meshes()) {
-            if (!fs::equivalent(parent, results / own, ignored)) continue;
-            throw Error(ExitCode::output, entry.path + ": lies in the folder " + own +
-                                              "/ of the results, which the run replaces; name another --out");
-        }
+        const std::filesystem::path parent = std::filesystem::absolute(entry.path).parent_path();
+        if (seen.insert(parent).second) refuse_replaced_folder(parent, entry.path, out);
     }
 }
 
@@ -111,6 +116,13 @@ std::vector<MeshEntry> RunFolders::meshes_outside(const Comm& comm, const std::v
     });
     results_->try_results_of(comm, entries);
     return entries;
+}
+
+void RunFolders::keep_apart(const Comm& comm, const std::string& examples) const {
+    agree(comm, [&] {
+        if (comm.is_root() && results_ && !examples.empty())
+            refuse_replaced_folder(examples, "--examples " + examples, results_path_);
+    });
 }
 
 void RunFolders::commit(const Comm& comm) {

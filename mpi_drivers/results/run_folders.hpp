@@ -58,6 +58,10 @@ class RunFolders {
     [[nodiscard]] std::vector<MeshEntry> meshes_outside(const Comm& comm, const std::vector<MeshEntry>* given,
                                                         const std::vector<std::string>& inputs) const;
 
+    /// Refuses a folder of examples, "" for none, that lies in what the results replace. Collective; throws
+    /// AgreedError(output).
+    void keep_apart(const Comm& comm, const std::string& examples) const;
+
     /// Ends the run if a state is kept and a rank has been asked to end. `kept` says what the state holds by
     /// now. Collective; throws AgreedError(checkpointed).
     void end_if_asked(const Comm& comm, const std::string& kept) const;

@@ -40,6 +40,7 @@ std::string agreement_text(const ShapeAlignment& alignment) {
 
 ShapeAlignment without_poses(ShapeAlignment alignment, const std::string& reason) {
     alignment.shapes.clear();
+    alignment.agreement_after = alignment.agreement_before;
     alignment.reason = reason;
     return alignment;
 }

@@ -20,6 +20,9 @@ using Eigen::Vector3i;
 
 /// A closed component is flat, and its volume says nothing, below this share of area^(3/2).
 constexpr double flat_volume = 1e-12;
+/// The same of an open one, whose volume depends on how it is closed: a ball has .094, and half of a ball
+/// without its base .133.
+constexpr double flat_open_volume = 0.005;
 
 /// Half-edge h = 3 f + k runs from corner k to corner k + 1 of triangle f; corner 3 f + k is its start.
 class ManifoldCutter {
@@ -165,14 +168,27 @@ class ManifoldCutter {
         }
     }
 
-    [[nodiscard]] bool is_closed(const std::vector<int>& members) const {
-        return std::all_of(members.begin(), members.end(), [&](int f) {
-            return mate_[at(3 * f)] >= 0 && mate_[at(3 * f + 1)] >= 0 && mate_[at(3 * f + 2)] >= 0;
-        });
+    /// From where the volume of a component is measured: of an open one the centre of its borders, which are
+    /// closed by cones to there.
+    [[nodiscard]] Vector3d cone_point(const std::vector<int>& members, bool& is_closed) const {
+        Vector3d sum = Vector3d::Zero();
+        double length = 0.0;
+        is_closed = true;
+        for (const int f : members) {
+            for (int h = 3 * f; h < 3 * f + 3; ++h) {
+                if (mate_[at(h)] >= 0) continue;
+                is_closed = false;
+                const double edge = (positions_[at(end(h))] - positions_[at(start(h))]).norm();
+                sum += 0.5 * edge * (positions_[at(end(h))] + positions_[at(start(h))]);
+                length += edge;
+            }
+        }
+        return length > 0.0 ? Vector3d(sum / length) : positions_[at(triangles_[at(members[0])][0])];
     }
 
     [[nodiscard]] bool should_turn(const std::vector<int>& members) const {
-        const Vector3d origin = positions_[at(triangles_[at(members[0])][0])];
+        bool is_closed = true;
+        const Vector3d origin = cone_point(members, is_closed);
         double volume = 0.0;
         double area = 0.0;
         double flipped_area = 0.0;
@@ -186,8 +202,8 @@ class ManifoldCutter {
             area += face_area;
             if (flip) flipped_area += face_area;
         }
-        if (is_closed(members) && std::abs(volume) > flat_volume * area * std::sqrt(area))
-            return volume < 0.0;
+        const double flat = is_closed ? flat_volume : flat_open_volume;
+        if (std::abs(volume) > flat * area * std::sqrt(area)) return volume < 0.0;
         return flipped_area > 0.5 * area;
     }
 

@@ -24,8 +24,9 @@ struct ManifoldCut {
 ///   apart, so that an edge is known by its end points also after refinement.
 /// - Around an edge with more than two triangles, these are sorted by angle, and neighbours that bound the
 ///   same solid wedge, back to front, are joined. The other triangles are cut apart there.
-/// - Orientation: each component gets one orientation by flood fill. A closed component takes the one with
-///   positive signed volume; an open or flat one takes the one that flips the lesser area.
+/// - Orientation: each component gets one orientation by flood fill. A component takes the one with positive
+///   signed volume, for which borders are closed by cones to their common centre; a flat one takes the one
+///   that flips the lesser area.
 /// - A vertex whose triangles form several fans gets a copy for each further fan.
 /// The given triangles must not repeat a vertex.
 ManifoldCut cut_to_manifold(const std::vector<Eigen::Vector3i>& triangles,

@@ -42,6 +42,13 @@ peanut "$work/set/b.off" 0.6
 peanut "$work/set/c.off" 0.7
 common=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 40)
 
+"$COSEG" describe --patches 10 --geodesic-samples 40 --json-log --state "$work/described" "$work/set" >"$work/log" 2>&1
+if grep -v '^{' "$work/log"; then fail "coseg describe --json-log prints other lines"; fi
+mkdir -p "$work/earlier/labels"
+yes 0 | head -n 1104 >"$work/earlier/labels/a.seg" || true
+refuses "examples in the results" 4 "--examples $work/earlier/labels: lies in the folder labels/ of the results" \
+    "$COSEG" run "${common[@]}" --parts 2 --examples "$work/earlier/labels" --force --out "$work/earlier" "$work/set"
+
 "$COSEG" run "${common[@]}" --parts 2 --alpha 0.02 --preset paper --lambda 10 --out "$work/by_option" "$work/set"
 printf 'parts = 2\nalpha = 0.02\npreset = "paper"\nlambda = 10\n' >"$work/run.toml"
 "$COSEG" run "${common[@]}" --config "$work/run.toml" --out "$work/by_file" "$work/set"

@@ -124,6 +124,7 @@ submit=(sbatch --parsable --time=20 --output="$work/job-%j.log" --ntasks=2)
 
 # A plain run, as submit.sh hands it in, and what --dry-run says of it.
 "$jobs/submit.sh" "$work/set/meshes" 2 --dry-run --ntasks 2 --out "$work/plain" 2>"$work/dry" >"$work/out"
+refuses "a folder for a list" 3 "is no list that can be read" "$jobs/submit.sh" "@$work/set/meshes" 2 --dry-run
 grep -q "^sbatch .*--ntasks=2.*coseg.sbatch run --parts 2 .*$work/set/meshes" "$work/dry" || { cat "$work/dry" >&2; fail "--dry-run"; }
 "$jobs/submit.sh" "$work/set/meshes" 2 --ntasks 2 --time 20 --state "$work/plain.state" --out "$work/plain" -- "${fast[@]}" >"$work/out"
 plain=$(sed 's/job \([0-9]*\).*/\1/' "$work/out")

@@ -55,6 +55,19 @@ wait
 env -i LD_LIBRARY_PATH="${LD_LIBRARY_PATH-}" COSEG_RANKS=2 "$COSEG" run "${common[@]}" --out "$work/bare" "$work/set"
 expects 2 "$work/bare"
 
+# Who ends the process ends its ranks, and it says by what it was ended.
+for signal in TERM INT; do
+    env -u OMPI_MCA_odls_base_sigkill_timeout --default-signal=INT "$COSEG" run --quiet --parts 2 --ranks 2 --out "$work/ended_$signal" "$work/set" 2>"$work/err" &
+    process=$!
+    until compgen -G "$work/ended_$signal.partial-*" >/dev/null || ! kill -0 "$process" 2>/dev/null; do sleep 0.05; done
+    kill -s "$signal" "$process"
+    status=0
+    wait "$process" || status=$?
+    # An interrupt is left to the terminal's other processes for three seconds, within which the run may end.
+    [[ $status -eq $((128 + $(kill -l "$signal"))) || ($signal == INT && $status -eq 0) ]] || { cat "$work/err" >&2; fail "exit code $status after SIG$signal"; }
+    if compgen -G "$work/ended_$signal.partial-*" >/dev/null; then fail "SIG$signal leaves a partial folder"; fi
+done
+
 refuses "a number of ranks that is none" 2 "--ranks" "$COSEG" run "${common[@]}" --ranks many --out "$work/x" "$work/set"
 refuses "a negative number of ranks" 2 "--ranks" "$COSEG" run "${common[@]}" --ranks -2 --out "$work/x" "$work/set"
 refuses "an error on all cores" 3 "no such file" "$COSEG" run "${common[@]}" --ranks 2 --out "$work/x" "$work/none"

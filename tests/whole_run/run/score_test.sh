@@ -64,6 +64,7 @@ expect_error 3 "'nowhere' is not a folder" --truth nowhere --labels labels meshe
 expect_error 3 "'nowhere' is not a folder" --truth truth --labels nowhere meshes
 mkdir empty
 expect_error 3 "no mesh has its truth in 'empty'" --truth empty --labels labels meshes
+expect_error 3 "no mesh has its labels in 'empty'" --truth truth --labels empty meshes
 expect_error 3 "nowhere.off" --truth truth --labels labels nowhere.off
 printf '7\n7\n5\n5\n' >labels/strip.seg
 expect_error 3 "4 labels, but the mesh has 3 faces" --truth truth --labels labels meshes

@@ -166,7 +166,7 @@ TEST(OutputDirectory, ForceReplacesResultsAndNothingElse) {
     folder.file("out/labels/gone.seg", "old");
     folder.file("out/labels/notes.txt", "keep");
     folder.file("out/mine/b.seg", "keep");
-    folder.file("out/report.json", "old");
+    folder.file("out/report.json", "{\"format\": \"coseg report 1\"}");
     folder.file("out/other.json", "keep");
     OutputDirectory output(folder.path("out"), true);
     write_labels(output.staging() + "/labels/a.seg", {7});
@@ -192,32 +192,51 @@ TEST(OutputDirectory, ForceTakesFilesOfAnEarlierRunByTheirWholeNames) {
     for (const auto* names : {&of_run, &of_user}) {
         for (const std::string& name : *names) folder.file("out/" + name, "earlier");
     }
+    folder.file("out/report.json", "{\"format\": \"coseg report 1\"}");
     OutputDirectory(folder.path("out"), true).commit();
     for (const std::string& name : of_run) EXPECT_FALSE(fs::exists(folder.path("out/" + name))) << name;
     for (const std::string& name : of_user) EXPECT_TRUE(fs::exists(folder.path("out/" + name))) << name;
 }
 
-TEST(OutputDirectory, ForceKeepsTheCorrectionsOfAnEarlierRun) {
+TEST(OutputDirectory, ForceKeepsWhatAPersonWroteOfAnEarlierRun) {
     const TemporaryFolder folder;
     fs::create_directories(folder.path("out"));
-    const auto run = [&](const std::string& corrections) {
+    const auto run = [&](const std::string& name, const std::string& text) {
         OutputDirectory output(folder.path("out"), true);
-        if (!corrections.empty()) write_file(output.staging() + "/corrections.json", corrections);
+        if (!text.empty()) write_file(output.staging() + "/" + name, text);
         output.commit();
     };
     const auto content = [&](const std::string& name) {
         return test::content_of(folder.path("out/" + name));
     };
+    folder.file("out/report.json", "{\"format\": \"coseg report 1\"}");
     folder.file("out/corrections.json", "first");
-    run("");
+    folder.file("out/names.txt", "seat");
+    run("corrections.json", "");
     EXPECT_EQ(content("corrections.json"), "first");
-    run("first");
+    EXPECT_EQ(content("names_1.txt"), "seat");  // of parts that are no longer there
+    EXPECT_FALSE(fs::exists(folder.path("out/names.txt")));
+    run("corrections.json", "first");
     EXPECT_FALSE(fs::exists(folder.path("out/corrections_1.json")));
-    run("second");
-    run("third");
+    run("corrections.json", "second");
+    run("corrections.json", "third");
     EXPECT_EQ(content("corrections.json"), "third");
     EXPECT_EQ(content("corrections_1.json"), "first");
     EXPECT_EQ(content("corrections_2.json"), "second");
+}
+
+TEST(OutputDirectory, ForceRemovesNothingWhereNoRunWas) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> of_user{"labels/mine.seg", "ply/scan.ply", "levels/3/x.seg",
+                                           "features.h5",     "names.txt",    "profile.txt"};
+    fs::create_directories(folder.path("out/labels"));
+    fs::create_directories(folder.path("out/ply"));
+    fs::create_directories(folder.path("out/levels/3"));
+    for (const std::string& name : of_user) folder.file("out/" + name, "mine");
+    folder.file("out/report.json", "{}");
+    OutputDirectory(folder.path("out"), true).commit();
+    for (const std::string& name : of_user)
+        EXPECT_EQ(test::content_of(folder.path("out/" + name)), "mine") << name;
 }
 
 TEST(OutputDirectory, ForceLeavesARunOnWhichASessionIsOpen) {

@@ -274,6 +274,33 @@ TEST(MeshRepair, OrientationIsMadeConsistentAndOutward) {
     EXPECT_TRUE(warns_of(repaired, "triangles are turned to face outward"));
 }
 
+TEST(MeshRepair, SolidsWithHolesFaceOutward) {
+    const TriMesh ball = test::sphere(2);
+    const auto part_of_ball = [&](const auto& has) {
+        std::vector<std::vector<int>> faces;
+        for (int f = 0; f < ball.face_count(); ++f) {
+            const Vector3d centre =
+                (ball.vertices.col(ball.faces(0, f)) + ball.vertices.col(ball.faces(1, f)) +
+                 ball.vertices.col(ball.faces(2, f))) /
+                3.0;
+            if (has(f, centre)) faces.push_back({ball.faces(1, f), ball.faces(0, f), ball.faces(2, f)});
+        }
+        std::vector<Vector3d> points;
+        for (int v = 0; v < ball.vertex_count(); ++v) points.emplace_back(ball.vertices.col(v));
+        return polygons_of(points, faces);
+    };
+    for (const PolygonMesh& inside_out :
+         {part_of_ball([](int f, const Vector3d&) { return f != 0; }),
+          part_of_ball([](int, const Vector3d&c) { return c.z() > 0.0; }),
+          part_of_ball([](int, const Vector3d&c) { return std::abs(c.z()) < 0.6; })}) {
+        const RepairedMesh repaired = repaired_soundly(inside_out);
+        EXPECT_TRUE(warns_of(repaired, "triangles are turned to face outward"));
+        const Eigen::Matrix3Xd normals = face_normals(repaired.mesh);
+        for (int f = 0; f < repaired.mesh.face_count(); ++f)
+            EXPECT_GT(normals.col(f).dot(repaired.mesh.vertices.col(repaired.mesh.faces(0, f))), 0.0);
+    }
+}
+
 TEST(MeshRepair, OpenSurfaceKeepsTheSideOfItsLargerPart) {
     PolygonMesh input = as_polygons(test::flat_square(4));
     std::swap(input.corners[0], input.corners[1]);
