@@ -89,6 +89,15 @@ PartitionedRun partitioned(const Comm& comm, const std::vector<MeshEntry>* entri
             std::move(alignment)};
 }
 
+constexpr const char* no_levels_with_corrections =
+    "no levels are written: corrections and constraints change the parts of one level alone";
+
+/// The run ends with this sentence; the report keeps it.
+void keep_warning_of_gap(const Optimisation& optimisation, const RunOptions& options, StageLog& log) {
+    const auto sentence = unreached_gap(optimisation.result, options.optimise.gap, "the optimiser");
+    if (sentence) log.keep_warning(*sentence);
+}
+
 }  // namespace
 
 BasePartition base_partition(const Comm& comm, const std::vector<MeshEntry>& entries, const RunOptions& given,
@@ -126,9 +135,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
         cut = std::move(followed.corrected.cut);
         examples.faces = std::move(followed.corrected.faces);
         examples.names = std::move(followed.names);
-        if (given.partition.levels)
-            log.warn(
-                "no levels are written: corrections and constraints change the parts of one level alone");
+        if (given.partition.levels) log.warn(no_levels_with_corrections);
         agree(comm, [&] {
             if (comm.is_root() && folders.keeps_results())
                 write_corrections(folders.results() + "/" + result_files::corrections, followed.file);
@@ -142,9 +149,7 @@ CoSegmented co_segment(const Comm& comm, const std::vector<MeshEntry>* entries, 
     std::vector<MeshLabels> labels =
         label_faces(comm, collection, cut, {parts, output.refine}, log, examples.faces);
     if (!petsc_arguments.empty()) CheckedPetsc::refuse_unused(comm);
-    // The run ends with this sentence; the report keeps it.
-    if (const auto sentence = unreached_gap(optimisation.result, options.optimise.gap, "the optimiser"))
-        log.keep_warning(*sentence);
+    keep_warning_of_gap(optimisation, options, log);
 
     const RunOutcome outcome{
         collection, ranges, optimisation, cut,

@@ -178,8 +178,8 @@ bool is_result_file(const std::string& name) {
     return name == result_files::report || name == result_files::corrections || is_of_some_runs(name);
 }
 
-/// What a person has written of an earlier run is not lost: where the new results replace the file or end what
-/// it was about, it gets the name with a number.
+/// What a person has written of an earlier run is not lost: where the new results replace the file or end
+/// what it was about, it gets the name with a number.
 void keep_work_of_a_person(const std::string& name, const fs::path& old, const fs::path& fresh) {
     const fs::path earlier = old / name;
     std::error_code ignored;
