@@ -95,7 +95,7 @@ std::optional<int> CommandLine::answered(bool is_root, Read&& read) {
     if (words_.empty()) return told_of_no_command(app_, is_root);
     try {
         refuse_unknown_command(commands_, words_.front());
-        parse_words(read(words_));
+        parse_words(read(words_, [this](const std::string& option) { return is_of_runs_alone(option); }));
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
         return told_parse_error(app_, error, is_root);
@@ -106,13 +106,24 @@ std::optional<int> CommandLine::answered(bool is_root, Read&& read) {
     }
 }
 
+bool CommandLine::is_of_runs_alone(const std::string& option) const {
+    const auto has_option = [&](const std::string& name) {
+        return std::any_of(commands_.begin(), commands_.end(), [&](const Command& command) {
+            return command.app->get_name() == name && command.app->get_option_no_throw(option) != nullptr;
+        });
+    };
+    return has_option("run") && !has_option(words_.front());
+}
+
 std::optional<int> CommandLine::parse() {
-    return answered(true, [](const std::vector<std::string>& words) { return with_config_file(words); });
+    return answered(true,
+                    [](const auto& words, const OptionTest& test) { return with_config_file(words, test); });
 }
 
 std::optional<int> CommandLine::parse(const Comm& comm) {
-    return answered(comm.is_root(),
-                    [&](const std::vector<std::string>& words) { return with_config_file(comm, words); });
+    return answered(comm.is_root(), [&](const auto& words, const OptionTest& test) {
+        return with_config_file(comm, words, test);
+    });
 }
 
 bool CommandLine::keeps_state() const {

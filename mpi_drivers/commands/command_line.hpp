@@ -37,10 +37,14 @@ class CommandLine {
     void run(const Comm& world) const;
 
   private:
-    /// What `read`, which gives all words, and the parsing of these come to.
+    /// What the parsing of all words comes to, which `read` gives from those of the command line and an
+    /// OptionTest of keys that are passed over.
     template <class Read>
     std::optional<int> answered(bool is_root, Read&& read);
     void parse_words(std::vector<std::string> words);
+    /// Whether coseg run has the option and the given command has it not: commands that describe meshes for a
+    /// run read the file of that run.
+    [[nodiscard]] bool is_of_runs_alone(const std::string& option) const;
     [[nodiscard]] const Command* parsed_command() const;
 
     std::vector<std::string> words_;            // before `--`

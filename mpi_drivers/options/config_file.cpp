@@ -60,7 +60,7 @@ void refuse_misplaced(const CLI::ConfigItem& item, const std::string& path, cons
 }
 
 std::vector<std::string> words_of(const std::vector<CLI::ConfigItem>& items, const std::string& path,
-                                  const std::vector<std::string>& given) {
+                                  const std::vector<std::string>& given, const OptionTest& is_passed_over) {
     std::vector<std::string> words;
     for (const CLI::ConfigItem& item : items) {
         // CLI11's marks for the begin and end of a section.
@@ -69,7 +69,7 @@ std::vector<std::string> words_of(const std::vector<CLI::ConfigItem>& items, con
         const std::string option = "--" + item.name;
         if (item.name == "input") {
             words.insert(words.end(), item.inputs.begin(), item.inputs.end());
-        } else if (!is_given(given, option)) {
+        } else if (!is_given(given, option) && !is_passed_over(option)) {
             words.push_back(option + "=" + joined(item.inputs));
         }
     }
@@ -84,21 +84,23 @@ bool is_given(const std::vector<std::string>& words, const std::string& option) 
     });
 }
 
-std::vector<std::string> with_config_file(const std::vector<std::string>& words) {
+std::vector<std::string> with_config_file(const std::vector<std::string>& words,
+                                          const OptionTest& is_passed_over) {
     const std::string path = named_file(words);
     if (path.empty()) return words;
     std::vector<std::string> all = {words.front()};  // the subcommand stands first
-    const std::vector<std::string> from_file = words_of(parsed(path), path, words);
+    const std::vector<std::string> from_file = words_of(parsed(path), path, words, is_passed_over);
     all.insert(all.end(), from_file.begin(), from_file.end());
     all.insert(all.end(), words.begin() + 1, words.end());
     return all;
 }
 
-std::vector<std::string> with_config_file(const Comm& comm, const std::vector<std::string>& words) {
+std::vector<std::string> with_config_file(const Comm& comm, const std::vector<std::string>& words,
+                                          const OptionTest& is_passed_over) {
     if (named_file(words).empty()) return words;
     std::vector<std::string> all;
     agree(comm, [&] {
-        if (comm.is_root()) all = with_config_file(words);
+        if (comm.is_root()) all = with_config_file(words, is_passed_over);
     });
     broadcast(comm, all);
     return all;

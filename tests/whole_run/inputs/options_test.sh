@@ -43,6 +43,11 @@ peanut "$work/set/c.off" 0.7
 common=(--quiet --no-sheet --no-html --patches 10 --geodesic-samples 40)
 
 "$COSEG" describe --patches 10 --geodesic-samples 40 --json-log --state "$work/described" "$work/set" >"$work/log" 2>&1
+printf 'levels = true\npatches = 12\n' >"$work/run.toml"
+"$COSEG" describe --quiet --geodesic-samples 40 --config "$work/run.toml" --state "$work/described" "$work/set" ||
+    fail "coseg describe takes no file of coseg run"
+echo 'levls = true' >>"$work/run.toml"
+refuses "a key of no command" 2 "--levls" "$COSEG" describe --config "$work/run.toml" --state "$work/described" "$work/set"
 if grep -v '^{' "$work/log"; then fail "coseg describe --json-log prints other lines"; fi
 mkdir -p "$work/earlier/labels"
 yes 0 | head -n 1104 >"$work/earlier/labels/a.seg" || true
