@@ -82,6 +82,13 @@ LabelNames names_beside_truth(const std::string& folder) {
     return folder.empty() ? LabelNames() : names_if_there(folder + "/" + truth_names_file);
 }
 
+void refuse_names_beyond(const LabelNames& names, int count, const std::string& path) {
+    if (names.empty() || names.rbegin()->first < count) return;
+    throw Error(ExitCode::input, path + ": label " + std::to_string(names.rbegin()->first) +
+                                     " has a name, but there are " + std::to_string(count) +
+                                     " parts; labels count from 0");
+}
+
 std::string names_text(const LabelNames& names) {
     std::string text;
     for (const auto& [label, name] : names) text += std::to_string(label) + " " + name + "\n";

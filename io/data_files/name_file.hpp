@@ -30,6 +30,10 @@ inline constexpr const char* truth_names_file = "labels.txt";
 /// read_found_names.
 LabelNames names_beside_truth(const std::string& folder);
 
+/// Throws Error(input) naming the path where a label other than 0 .. count - 1 has a name, as if labels were
+/// counted from 1.
+void refuse_names_beyond(const LabelNames& names, int count, const std::string& path);
+
 /// The text of such a file: the number and the name of each label, a line each.
 std::string names_text(const LabelNames& names);
 

@@ -44,10 +44,11 @@ std::string comma_separated(const std::vector<std::string>& words) {
 }
 
 /// --names, else what lies beside the true labels, else none. Collective; throws AgreedError(input).
-LabelNames chosen_names(const Comm& world, const RenderOptions& options) {
+LabelNames chosen_names(const Comm& world, const FinishedRun& run, const RenderOptions& options) {
     LabelNames names;
     agree(world, [&] {
         names = options.names.empty() ? names_beside_truth(options.input.truth) : read_names(options.names);
+        if (options.input.truth.empty()) refuse_names_beyond(names, run.parts, options.names);
     });
     return names;
 }
@@ -63,7 +64,7 @@ void render(const RenderOptions& options, const Comm& world) {
         if (world.is_root()) check_output_folder(out);
     });
     const std::vector<LabelledMesh> shapes = read_shapes(world, run, options.input);
-    PartKey key{{}, chosen_names(world, options)};
+    PartKey key{{}, chosen_names(world, run, options)};
     if (!options.input.truth.empty()) key.label_of_part = agree_on_truth(world, shapes, run.parts);
     agree(world, [&] {
         std::error_code cause;

@@ -68,6 +68,7 @@ std::vector<std::string> names_of_parts(const Comm& comm, const FinishedRun& run
     bool are_of_labels = false;
     agree(comm, [&] {
         names = file.empty() ? names_in_folder(run.folder) : read_names(file);
+        if (!file.empty()) refuse_names_beyond(names, run.parts, file);
         if (!names.empty()) return;
         names = names_beside_truth(input.truth);
         are_of_labels = !names.empty();

@@ -61,10 +61,8 @@ int labels_in(const std::string& folder) {
 /// What FOLDER/names.txt calls the labels; nothing where it is not there.
 LabelNames names_in(const std::string& folder, int parts) {
     LabelNames names = names_in_folder(folder);
-    if (names.empty() || names.rbegin()->first < parts) return names;
-    throw Error(ExitCode::input, folder + "/" + result_files::names + ": label " +
-                                     std::to_string(names.rbegin()->first) + " has a name, but there are " +
-                                     std::to_string(parts) + " parts; labels count from 0");
+    refuse_names_beyond(names, parts, folder + "/" + result_files::names);
+    return names;
 }
 
 void refuse_strangers(const Collection& collection, const std::vector<std::string>& names,

@@ -14,6 +14,8 @@ grep -q collection.vtm "$work/out" || fail "export does not say where the collec
 [[ $(grep -c newmtl "$work/result/obj/parts.mtl") -eq 3 ]] || fail "materials"
 printf 'left jaw\nright jaw\npin\n' >"$work/names"
 "$COSEG" export "$work/result" --to obj --names "$work/names" --out "$work/called" >/dev/null
+printf '1 body\n9 handle\n' >"$work/from_one"
+refuses "names of other parts" 3 "label 9 has a name, but there are" "$COSEG" export "$work/result" --to obj --names "$work/from_one" --out "$work/other"
 grep -q '^g left_jaw$' "$work/called/obj/pliers_0000.obj" || fail "OBJ without names of parts"
 # What an earlier export has split is not left among the new parts.
 "$COSEG" export "$work/result" --to obj --split --names "$work/names" --out "$work/called" >/dev/null
