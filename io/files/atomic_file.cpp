@@ -7,8 +7,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "io/files/path_beside.hpp"
 #include "src/base/error.hpp"
-#include "src/base/seeded_random.hpp"
 
 namespace coseg {
 
@@ -31,13 +31,8 @@ std::string target_of(const std::string& path) {
     return cause ? path : target.string();
 }
 
-/// Beside the file. Where its name is so long that none longer is allowed, a hash stands for its end.
 std::string temporary_path(const std::string& path) {
-    constexpr std::size_t longest = 200;
-    const std::string mark = ".partial-" + std::to_string(::getpid());
-    const std::size_t name_begin = path.rfind('/') + 1;  // 0 if there is no folder
-    if (path.size() - name_begin <= longest) return path + mark;
-    return path.substr(0, name_begin + longest - 16) + std::to_string(hash_text(path)) + mark;
+    return path_beside(path, ".partial-" + std::to_string(::getpid()));
 }
 
 /// Of a path that no file can have, the cause; else 0. Renaming would fail, but only when all is written.

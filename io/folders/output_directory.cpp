@@ -18,10 +18,10 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/file_contents.hpp"
 #include "io/files/folder_entries.hpp"
+#include "io/files/path_beside.hpp"
 #include "io/folders/absolute_folder.hpp"
 #include "io/folders/state_lock.hpp"
 #include "src/base/error.hpp"
-#include "src/base/seeded_random.hpp"
 
 namespace coseg {
 
@@ -77,18 +77,12 @@ std::string own_mark() {
 }
 
 /// The partial folder lies inside a folder that exists: this may be a mount point, or its parent may be
-/// closed to us. Beside a folder whose name is so long that none longer is allowed, a hash stands for the end
-/// of the name.
+/// closed to us.
 std::string staging_prefix(const std::string& path) {
-    constexpr std::size_t longest_name = 255;
-    constexpr std::size_t hash_and_process = 20 + 10;  // decimal digits of 64 bits, and of a process
-    const std::string mark = own_mark();
+    constexpr std::size_t digits_of_process = 10;
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) return path + "/" + mark;
-    const std::size_t name_begin = path.rfind('/') + 1;
-    if (path.size() - name_begin + mark.size() + hash_and_process <= longest_name) return path + mark;
-    const std::size_t kept = longest_name - hash_and_process - mark.size();
-    return path.substr(0, name_begin + kept) + std::to_string(hash_text(path)) + mark;
+    if (fs::is_directory(path, ignored)) return path + "/" + own_mark();
+    return path_beside(path, own_mark(), digits_of_process);
 }
 
 /// The process has ended, but its parent has not collected its status, which in a container may never happen.
