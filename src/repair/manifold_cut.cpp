@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -168,27 +169,25 @@ class ManifoldCutter {
         }
     }
 
-    /// From where the volume of a component is measured: of an open one the centre of its borders, which are
-    /// closed by cones to there.
-    [[nodiscard]] Vector3d cone_point(const std::vector<int>& members, bool& is_closed) const {
+    /// The centre of the borders of a component; none where it is closed.
+    [[nodiscard]] std::optional<Vector3d> border_centre(const std::vector<int>& members) const {
         Vector3d sum = Vector3d::Zero();
         double length = 0.0;
-        is_closed = true;
         for (const int f : members) {
             for (int h = 3 * f; h < 3 * f + 3; ++h) {
                 if (mate_[at(h)] >= 0) continue;
-                is_closed = false;
                 const double edge = (positions_[at(end(h))] - positions_[at(start(h))]).norm();
                 sum += 0.5 * edge * (positions_[at(end(h))] + positions_[at(start(h))]);
                 length += edge;
             }
         }
-        return length > 0.0 ? Vector3d(sum / length) : positions_[at(triangles_[at(members[0])][0])];
+        return length > 0.0 ? std::optional<Vector3d>(sum / length) : std::nullopt;
     }
 
+    /// Borders are closed by cones to their centre, from which the volume is measured.
     [[nodiscard]] bool should_turn(const std::vector<int>& members) const {
-        bool is_closed = true;
-        const Vector3d origin = cone_point(members, is_closed);
+        const std::optional<Vector3d> border = border_centre(members);
+        const Vector3d origin = border.value_or(positions_[at(triangles_[at(members[0])][0])]);
         double volume = 0.0;
         double area = 0.0;
         double flipped_area = 0.0;
@@ -202,7 +201,7 @@ class ManifoldCutter {
             area += face_area;
             if (flip) flipped_area += face_area;
         }
-        const double flat = is_closed ? flat_volume : flat_open_volume;
+        const double flat = border ? flat_open_volume : flat_volume;
         if (std::abs(volume) > flat * area * std::sqrt(area)) return volume < 0.0;
         return flipped_area > 0.5 * area;
     }
